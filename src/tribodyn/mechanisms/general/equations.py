@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache, lru_cache
+from functools import cache
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from tribodyn.cases.directions import unit
-from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
@@ -26,7 +26,6 @@ from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.kernels.mechanism.law import address_of
-from tribodyn.kernels.mechanism.newton import N_BODY, N_COMPLIANCE, N_PAIR, N_ROW
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanisms.actions import Term, term_records
 from tribodyn.mechanisms.general.actions import GIVEN, DriveKeys, LoadKeys
@@ -36,16 +35,14 @@ from tribodyn.mechanisms.general.frames import GROUND, cross, frame
 from tribodyn.mechanisms.general.joints import JOINTS
 from tribodyn.mechanisms.general.loads import fill_load
 from tribodyn.mechanisms.general.model import Model
-from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
 from tribodyn.mechanisms.general.parts import JointKeys, SpringKeys
+from tribodyn.mechanisms.general.patterns import n_blocks, number_entries, patterns
 from tribodyn.mechanisms.general.races import axes_of
 from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
 from tribodyn.wear import resampled
 
 _MEASURES: Final = {"coordinate": kinds.COORDINATE, "distance": kinds.DISTANCE, "path": kinds.PATH}
 _COORDINATES: Final = ("angle", "position")
-_KEPT: Final = 8
-"""Structures of mechanisms whose patterns are kept."""
 
 
 def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bool = True) -> MechanismData:
@@ -63,7 +60,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bo
     signals = SignalList()
     terms: list[Term] = []
     couplings = _couplings(model, signals, terms)
-    mass, newton = _patterns(len(model.bodies), couplings)
+    mass, newton = patterns(len(model.bodies), couplings)
     constants = new_record(kinds.Constants)
     constants.gravity[:] = model.case.gravity
     constants.n_rows = constants.rank = int(np.sum(couplings.n_rows))
@@ -76,7 +73,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bo
     oiled = any(clearance.film is not None for clearance in clearances)
     films, film_force = _with_force(_films(clearances, worn)) if oiled else _dry()
     parts = Parts(constants, _bodies(model), couplings)
-    constants.n_entries = _number_entries(len(model.bodies), couplings)
+    constants.n_entries = number_entries(len(model.bodies), couplings)
     inverts = (mass.factor[:, 0] == INVERT_DEFINITE, 1)
     parts.bodies.inverted[:] = ~np.isin(np.arange(parts.bodies.size), mass.factor[inverts])
     of_loads = term_records(signals, terms)
@@ -138,11 +135,6 @@ def new_memory(data: MechanismData) -> MechanismMemory:
         films=stacked_memory(data.films),
         oil=new_oil(data.films.constants.size),
     )
-
-
-def n_blocks(pattern: kinds.Pattern) -> int:
-    """Return the number of blocks that a pattern works on."""
-    return 1 + int(np.max(np.append(pattern.forward[:, 0], pattern.backward[:, 0])))
 
 
 def _size(model: Model) -> float:
@@ -336,66 +328,3 @@ def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList, fir
     if law.table is not None:
         pieces, record.over_rate = pieces_of(law.table), int(law.over_rate)
         record.table[:] = signals.add(pieces), signals.add(integral_of(pieces))
-
-
-def _patterns(n_bodies: int, couplings: Any) -> tuple[kinds.Pattern, kinds.Pattern]:
-    """Return the patterns of the equations of motion and of the iteration matrix; number the blocks."""
-    numbers = [couplings[name] for name in ("node", "socket", "shaft", "n_terms")]
-    structure = np.ascontiguousarray(np.stack([*numbers, couplings.law != 0], axis=1), np.int64)
-    mass, newton, rows_block, bodies_block = _patterns_of(n_bodies, structure.tobytes())
-    couplings.rows_block[:], couplings.bodies_block[:] = rows_block, bodies_block
-    return _copy(mass), _copy(newton)
-
-
-def _number_entries(n_bodies: int, couplings: Any) -> int:
-    """Fill where the entries of couplings in the iteration matrix begin; return how many there are."""
-    sides = (couplings.socket < n_bodies).astype(int) + (couplings.shaft < n_bodies)
-    of_rows = N_ROW * sides * couplings.n_terms + N_COMPLIANCE
-    numbers = N_PAIR * sides**2 + np.where(couplings.node != NONE, of_rows, 0)
-    ends = N_BODY * n_bodies + np.cumsum(numbers)
-    couplings.first_entry[:] = ends - numbers
-    return int(ends[-1]) if ends.size else N_BODY * n_bodies
-
-
-def _copy(pattern: kinds.Pattern) -> kinds.Pattern:
-    return kinds.Pattern(*(array.copy() for array in pattern))
-
-
-@lru_cache(_KEPT)
-def _patterns_of(n_bodies: int, structure: bytes) -> tuple[kinds.Pattern, kinds.Pattern, IntArray, IntArray]:
-    """Return both patterns, and the blocks of rows, (n, 2, 2), and of pairs of bodies, (n, 2).
-
-    ``structure`` holds node, socket, shaft and rows of each coupling, and whether it has a law.
-    """
-    couplings: list[list[int]] = np.frombuffer(structure, np.int64).reshape(-1, 5).tolist()
-    n_nodes = max([n_bodies, *(1 + node for node, *_ in couplings)])
-    block_of, sizes = {(k, k): k for k in range(n_nodes)}, [6] * n_nodes
-    of_node: dict[int, list[int]] = {}
-    rows_block, bodies_block = np.full((len(couplings), 2, 2), NONE), np.full((len(couplings), 2), NONE)
-    laws = {node for node, *_, law in couplings if law}
-    for node, *_, n_terms, _ in couplings:
-        if node != NONE:
-            sizes[node] = n_terms
-
-    def block(row: int, column: int) -> int:
-        return block_of.setdefault((row, column), len(block_of))
-
-    for k, (node, *ends, _, _) in enumerate(couplings):
-        bodies = [b if b < n_bodies else NONE for b in ends]
-        if node != NONE:
-            of_node.setdefault(node, []).extend(bodies)
-            for side, body in enumerate(bodies):
-                if body != NONE:
-                    rows_block[k, side] = block(node, body), block(body, node)
-    rows = [
-        Rows(node, tuple(b for b in dict.fromkeys(bodies) if b != NONE), NONE in bodies)
-        for node, bodies in of_node.items()
-        if node not in laws
-    ]
-    order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
-    mass = make_pattern(order, dict(block_of), sizes, n_bodies)
-    for k, (_, socket, shaft, *_) in enumerate(couplings):
-        if socket < n_bodies and shaft < n_bodies:
-            bodies_block[k] = block(socket, shaft), block(shaft, socket)
-    order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
-    return mass, make_pattern(order, dict(block_of), sizes), rows_block, bodies_block

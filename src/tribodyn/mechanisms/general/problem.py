@@ -19,8 +19,9 @@ from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanisms.actions import WAVE_STEPS
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.case import MechanismCase
-from tribodyn.mechanisms.general.equations import mechanism_data, n_blocks, new_memory
+from tribodyn.mechanisms.general.equations import mechanism_data, new_memory
 from tribodyn.mechanisms.general.model import Model
+from tribodyn.mechanisms.general.patterns import n_blocks
 from tribodyn.mechanisms.wear_state import Carried
 
 FUNCTIONS: Final = CompiledFunctions(

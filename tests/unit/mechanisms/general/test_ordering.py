@@ -8,9 +8,10 @@ from tests.unit.mechanisms.general.drawings import chain, joint, mechanism, rod,
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.blocks import INVERT_DEFINITE, factorise, solve
-from tribodyn.mechanisms.general.equations import mechanism_data, n_blocks
+from tribodyn.mechanisms.general.equations import mechanism_data
 from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.ordering import Rows, elimination_order, make_pattern
+from tribodyn.mechanisms.general.patterns import n_blocks
 
 
 def star(n: int) -> Model:
