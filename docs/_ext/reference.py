@@ -15,7 +15,9 @@ TOPS = {"tribodyn": tribodyn, "mebdf": mebdf}
 
 
 def packages() -> Iterator[str]:
-    """Yield the dotted name of every package below tribodyn, then of the solver and those below it."""
+    """Yield the dotted name of every part of tribodyn, then of the solver and the packages below it."""
+    own = pkgutil.iter_modules(tribodyn.__path__, "tribodyn.")
+    yield from (found.name for found in own if not found.ispkg and not found.name.endswith("__main__"))
     yield from _below("tribodyn")
     yield "mebdf"
     yield from _below("mebdf")

@@ -62,8 +62,11 @@ MOST_CORRECTIONS: Final = 6
 MOST_ROUNDS: Final = 60
 SETTLED: Final = 1.0e-13
 """Rounds in which forces that follow reactions must settle, and the relative change from which they have."""
-CLOSED: Final = 1.0e-12
-"""Residual of constraints, relative to the size of the mechanism, that is none."""
+CLOSED: Final = 1.0e-14
+"""Residual of constraints, relative to the size of the mechanism, that is none.
+
+With 1e-12 mechanisms leave positions in which constraints degenerate along another branch.
+"""
 FAR: Final = 1.0e-3
 """Residual, relative to the size, whose correction may turn shafts so far that whole turns count anew."""
 EXACT: Final = 1.0e-14
