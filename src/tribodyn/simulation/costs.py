@@ -8,8 +8,8 @@ without compilation, figures and report. Estimate over measurement was 0.7 to 2.
 the program and of a number of a sample, and the times of the start, were fitted again to thirteen runs of up
 to 83 bodies: 1.0 to 1.6 for memory, 1.1 to 2.3 for time. The memory of a number of a sample was
 lowered when results came to be written in one copy: 1.1 to 1.2 of four runs with up to 126,000 samples.
-The time of a node, of a joint and of the start was fitted a third time, when contact came to be computed
-faster, to thirteen runs of up to 81 bodies: see the page of costs for what came out.
+All times but those of films, pictures and integrators in Python were fitted again, when start, steps and
+samples had become faster, to thirteen runs of up to 83 bodies: see the page of costs for what came out.
 ``tests/unit/simulation/test_costs.py`` measures others: within a factor of 2 for memory, 3 for time.
 """
 
@@ -61,20 +61,20 @@ _BAND: Final = Coefficient(32.0, "B", "entry of the band and the border of a fil
 _ASSEMBLY: Final = Coefficient(10.0, "B", "square of the number of states: assembly")
 _DENSE: Final = Coefficient(100.0, "B", "the same with integrators that use full matrices")
 
-_START: Final = Coefficient(0.5, "s", "reading, laws, start and result")
-_PART: Final = Coefficient(0.05, "s", "joint with clearance: its tables")
-_START_STATE: Final = Coefficient(4.0e-4, "s", "state: assembly and start")
-_STATES_CUBED: Final = Coefficient(5.0e-10, "s", "cube of the number of states: matrices of the start")
-_STEP: Final = Coefficient(5.0e-6, "s", "step in compiled code")
-_STATE: Final = Coefficient(1.0e-6, "s", "state in a step")
-_EVALUATION: Final = Coefficient(1.5e-9, "s", "node in an evaluation of the contact")
+_START: Final = Coefficient(0.1, "s", "reading, laws, start and result")
+_PART: Final = Coefficient(0.03, "s", "joint with clearance: its tables")
+_START_STATE: Final = Coefficient(1.0e-4, "s", "state: assembly and start")
+_STATES_CUBED: Final = Coefficient(5.0e-11, "s", "cube of the number of states: matrices of the start")
+_STEP: Final = Coefficient(2.0e-6, "s", "step in compiled code")
+_STATE: Final = Coefficient(4.0e-7, "s", "state in a step")
+_EVALUATION: Final = Coefficient(1.7e-9, "s", "node in an evaluation of the contact")
 _EVALUATIONS: Final = Coefficient(
     3.5, "1", "evaluations of a step: two of the rates, a sixth of a Jacobian, path integrals"
 )
 _PYTHON_STEP: Final = Coefficient(5.0e-4, "s", "step of an integrator in Python, additional")
 _DENSE_CUBED: Final = Coefficient(1.0e-10, "s", "cube of the number of states in a step with full matrices")
-_SAMPLE: Final = Coefficient(5.0e-6, "s", "sample")
-_SAMPLE_NUMBER: Final = Coefficient(2.0e-7, "s", "number of a sample, saved")
+_SAMPLE: Final = Coefficient(2.0e-6, "s", "sample")
+_SAMPLE_NUMBER: Final = Coefficient(7.0e-8, "s", "number of a sample, saved")
 _SAVED_NODE: Final = Coefficient(1.0e-8, "s", "node of a pressure field, saved")
 _FILM_CELL: Final = Coefficient(2.0e-8, "s", "cell of an oil film in an evaluation")
 _FILM_ENTRY: Final = Coefficient(3.0e-10, "s", "the same, times the square of the band")
