@@ -58,7 +58,7 @@ def build(
 def variable(dims: tuple[str, ...], values: NDArray[Any], about: dict[str, Any]) -> xr.Variable:
     """Return an array with its dimensions and attributes, by the short way of xarray for plain arrays.
 
-    The other way imports pint and dask to see that the array is none of theirs, which takes half a second.
+    The constructor of xarray imports pint and dask to check the type of the array, which takes half a second.
     """
     return xr.Variable(dims, values, about, fastpath=True)
 

@@ -4,12 +4,9 @@ Both are sums over the counts of a :class:`~tribodyn.mechanisms.workload.Workloa
 fitted to 37 runs of all built-in cases: contact grids of 96 to 133,000 nodes, film grids of 1,500 to 25,000
 cells, 1 to 30 bodies, 500 to 250,000 samples, up to 160 drive cycles, all integrators but ``cvode``. Memory
 is the peak resident size of a process that simulates and saves. Time is its processor time (AMD EPYC),
-without compilation, figures and report. Estimate over measurement was 0.7 to 2.7 for time. The memory of
-the program and of a number of a sample, and the times of the start, were fitted again to thirteen runs of up
-to 83 bodies: 1.0 to 1.6 for memory, 1.1 to 2.3 for time. The memory of a number of a sample was
-lowered when results came to be written in one copy: 1.1 to 1.2 of four runs with up to 126,000 samples.
-All times but those of films, pictures and integrators in Python were fitted again, when start, steps and
-samples had become faster, to thirteen runs of up to 83 bodies: see the page of costs for what came out.
+without compilation, figures and report. The coefficients of memory that belong to the
+program and to a number of a sample were fitted again to thirteen runs of up to 83 bodies, and so were all
+times but those of films, pictures and integrators in Python: see the page of costs for what came out.
 ``tests/unit/simulation/test_costs.py`` measures others: within a factor of 2 for memory, 3 for time.
 """
 
