@@ -26,7 +26,7 @@ NEEDED = {
 }
 NAMES = {*sys.stdlib_module_names, *NEEDED}
 """Names of planted modules: all of Python, and what tribodyn is made of and needs."""
-HELPED = {"run", "sweep", "find", "workbench", "serve", "validate"}
+HELPED = {"run", "sweep", "find", "workbench", "validate"}
 """Commands that may start helper processes: each is run by itself. The others run one after another."""
 SHORT = ("vsv", "--set", "run.duration=2 ms", "--set", "run.output_interval=1 ms", "--quiet")
 VARIED = (*SHORT, "--vary", "joint.clearance=20:30:10 um", "--workers", "2", "--summary-only")
@@ -49,7 +49,6 @@ REFUSED_BY = {
     "sweep": ("sweep", "vsv", "--vary", "nothing=1:2:1", "--workers", "2"),
     "find": ("find", "vsv", *FOUND[-4:], "--workers", "-1"),
     "workbench": ("workbench", "vsv", "--port", "-1"),
-    "serve": ("serve", "vanes.example.org", "--port", "-1"),
     "report": ("report", "missing"),
     "bounce": ("bounce", "vsv", "--law", "nothing"),
     "compare": ("compare", "missing", "missing"),

@@ -51,7 +51,7 @@ class _Modules(Mapping[str, Command]):
 
 
 COMMANDS: Final = _Modules(
-    *("run", "cases", "new", "show", "check", "sweep", "find", "contributions", "fit", "workbench", "serve"),
+    *("run", "cases", "new", "show", "check", "sweep", "find", "contributions", "fit", "workbench"),
     *("report", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
     *("compile", "completion"),
 )
@@ -67,7 +67,6 @@ _EXAMPLES: Final = {
     "find": "tribodyn find vsv --vary joint.clearance=10..60um --until vane_angle_error_max_deg=0.03",
     "contributions": "tribodyn contributions vsv-joints",
     "fit": "tribodyn fit vsv --data run.csv --vary joint.clearance=10..60um",
-    "serve": "tribodyn serve vanes.example.org --workers 8",
     "workbench": "tribodyn workbench vsv --set joint.clearance='25 um'",
     "report": "tribodyn report results-vsv",
     "compare": "tribodyn compare results-vsv wide",

@@ -13,13 +13,11 @@ import secrets
 from dataclasses import dataclass, field
 from hmac import compare_digest
 from http.cookies import CookieError
-from typing import Final, Protocol
+from typing import Final
 
 from tornado.httputil import HTTPHeaders, HTTPMessageDelegate, HTTPServerRequest, ResponseStartLine
 from tornado.routing import Router
 from tornado.web import Application
-
-from tribodyn.workbench.visitor import Visitor
 
 TOKEN, SECRET = "token", "secret"
 """Names in addresses: of the token that the browser is opened with, and of the secret of the page."""
@@ -29,48 +27,29 @@ _BYTES: Final = 32
 _REFUSED: Final = b"403: this is not for you\n"
 
 
-class SessionStore(Protocol):
-    """Visitors by cookie."""
-
-    @property
-    def authenticated_elsewhere(self) -> bool:
-        """Whether a browser without cookie may request the page, because a proxy has authenticated it."""
-        ...
-
-    def visitor(self, cookie: str) -> Visitor | None:
-        """Return whose cookie it is."""
-        ...
-
-    def admits(self, token: str | None) -> bool:
-        """Return whether a browser without a cookie may have one."""
-        ...
-
-    def admit(self) -> str:
-        """Return the cookie of a new session."""
-        ...
-
-
 @dataclass
-class SingleSession:
-    """Session of one user: a token that can be exchanged once for a cookie.
+class Session:
+    """Session of the user: a token that can be exchanged once for a cookie and the secret of the page.
 
     Attributes
     ----------
-    user
-        The user.
     token
         What the browser is opened with.
+    cookie
+        What a browser sends with every request from then on.
+    secret
+        Held by the pages alone, and part of every request for more than the page. A browser sends a cookie
+        to every port of the name that it came from, but gives this to pages of this port alone.
     """
 
-    user: Visitor
     token: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
-    _cookie: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
+    cookie: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
+    secret: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
     _used: bool = False
-    authenticated_elsewhere: bool = False
 
-    def visitor(self, cookie: str) -> Visitor | None:
-        """Return the user, if it is their cookie."""
-        return self.user if same(cookie, self._cookie) else None
+    def has(self, cookie: str) -> bool:
+        """Return whether this is the cookie."""
+        return same(cookie, self.cookie)
 
     def admits(self, token: str | None) -> bool:
         """Return whether this is the token, at its first use."""
@@ -79,7 +58,7 @@ class SingleSession:
     def admit(self) -> str:
         """Return the cookie; the token is invalid from now on."""
         self._used = True
-        return self._cookie
+        return self.cookie
 
 
 def same(given: str, wanted: str) -> bool:
@@ -94,15 +73,12 @@ class Endpoint:
 
     Attributes
     ----------
-    scheme
-        ``http``, or ``https`` where a proxy speaks it.
     hosts
         What may stand in the header Host: names with ports, as browsers write them.
     cookie
         Name of the cookie.
     """
 
-    scheme: str
     hosts: frozenset[str]
     cookie: str
 
@@ -111,8 +87,7 @@ class Endpoint:
 
         They name no other host: whoever has the name under which the cookie is kept could receive it.
         """
-        socket = "wss" if self.scheme == "https" else "ws"
-        connect = f"'self' {socket}://{host}" if host else "'none'"
+        connect = f"'self' ws://{host}" if host else "'none'"
         return {
             "Content-Security-Policy": (
                 "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
@@ -142,14 +117,14 @@ class AccessControl(Router):
     ----------
     endpoint
         Address of the server.
-    sessions
-        Visitors who have access.
+    session
+        Session of the user.
     application
         Answers requests that pass.
     """
 
-    def __init__(self, endpoint: Endpoint, sessions: SessionStore, application: Application) -> None:
-        self.endpoint, self.sessions, self.application = endpoint, sessions, application
+    def __init__(self, endpoint: Endpoint, session: Session, application: Application) -> None:
+        self.endpoint, self.session, self.application = endpoint, session, application
 
     def find_handler(self, request: HTTPServerRequest, **options: object) -> HTTPMessageDelegate | None:
         """Return the handler of a request."""
@@ -167,14 +142,13 @@ class AccessControl(Router):
         origin = headers.get("Origin") or headers.get("Sec-WebSocket-Origin")
         if origin is None and "Upgrade" in headers:
             return False
-        if origin is not None and origin != f"{self.endpoint.scheme}://{host}":
+        if origin is not None and origin != f"http://{host}":
             return False
-        visitor = self.sessions.visitor(self.endpoint.cookie_of(request))
-        if visitor is not None:
-            return _is_shown(request.path) or same(argument_of(request, SECRET) or "", visitor.secret)
+        if self.session.has(self.endpoint.cookie_of(request)):
+            return _is_shown(request.path) or same(argument_of(request, SECRET) or "", self.session.secret)
         if request.path != "/" or "Upgrade" in headers:
             return False
-        return self.sessions.authenticated_elsewhere or self.sessions.admits(argument_of(request, TOKEN))
+        return self.session.admits(argument_of(request, TOKEN))
 
 
 def _is_shown(path: str) -> bool:

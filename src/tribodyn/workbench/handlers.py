@@ -12,14 +12,12 @@ from typing import Any, Final
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from tribodyn.workbench.access import TOKEN, Endpoint, SessionStore, argument_of
+from tribodyn.workbench.access import TOKEN, Endpoint, Session, argument_of
 from tribodyn.workbench.description import DOWNLOADS
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.page_session import PageSession
 from tribodyn.workbench.server_state import ServerState
-from tribodyn.workbench.sessions import NEW
 from tribodyn.workbench.variant import SAVED
-from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
 PAGE: Final = "page.html"
@@ -39,8 +37,6 @@ _ARRIVED: Final = (
     b'<p><a href="/">The workbench</a></html>\n'
 )
 """A page that leads to ours: a browser that is redirected from another site would leave the cookie out."""
-_ASK_AGAIN: Final = _ARRIVED.replace(b"url=/", b"url=/?token=" + NEW.encode())
-"""A page that loads itself again: a link on another site loads it without the cookie."""
 _EMPTY, _FILLED = b'name="secret" content=""', b'name="secret" content="%s"'
 """Place of the secret in the page, without and with one."""
 _BACKLOG: Final = 200_000_000
@@ -55,7 +51,7 @@ class ServerContext:
 
     Attributes
     ----------
-    state, endpoint, sessions
+    state, endpoint, session
         See there.
     assets
         Content by name.
@@ -65,7 +61,7 @@ class ServerContext:
 
     state: ServerState
     endpoint: Endpoint
-    sessions: SessionStore
+    session: Session
     assets: Mapping[str, bytes]
     log_error: Callable[[str], None]
     sockets: int = 0
@@ -110,14 +106,6 @@ class _Handler(RequestHandler):
         if not isinstance(value, HTTPError | WebSocketClosedError):
             self.context.log_error("".join(traceback.format_exception(kind, value, trace)))
 
-    @property
-    def visitor(self) -> Visitor:
-        """Visitor of the request; access control has made sure that there is one."""
-        found = self.context.sessions.visitor(self.context.endpoint.cookie_of(self.request))
-        if found is None:
-            raise HTTPError(403)
-        return found
-
 
 class Page(_Handler):
     """``/``: the page, and the exchange of a token for a cookie."""
@@ -125,29 +113,14 @@ class Page(_Handler):
     def get(self) -> None:
         """Answer."""
         self.set_header("Content-Type", _KINDS[".html"])
-        sessions, token = self.context.sessions, argument_of(self.request, TOKEN)
-        known = sessions.visitor(self.context.endpoint.cookie_of(self.request)) is not None
-        if sessions.admits(token):
-            cookie = sessions.admit()
-            self._set_cookie(cookie)
-            self.finish(self._page_of(sessions.visitor(cookie)))
-        elif known:
-            self.finish(self.context.assets[PAGE] if token is None else _ARRIVED)
-        elif sessions.authenticated_elsewhere and token is None:
-            self.finish(_ASK_AGAIN)
+        session, token = self.context.session, argument_of(self.request, TOKEN)
+        page, name = self.context.assets[PAGE], self.context.endpoint.cookie
+        if session.admits(token):
+            self.set_cookie(name, session.admit(), path="/", httponly=True, samesite="Strict")
+            # A browser gets the secret once.
+            self.finish(page.replace(_EMPTY, _FILLED % session.secret.encode()))
         else:
-            raise HTTPError(403)
-
-    def _page_of(self, visitor: Visitor | None) -> bytes:
-        """Return the page with the secret, which a browser gets once."""
-        assert visitor is not None
-        return self.context.assets[PAGE].replace(_EMPTY, _FILLED % visitor.secret.encode())
-
-    def _set_cookie(self, value: str) -> None:
-        secure = self.context.endpoint.scheme == "https"
-        self.set_cookie(
-            self.context.endpoint.cookie, value, path="/", httponly=True, samesite="Strict", secure=secure
-        )
+            self.finish(page if token is None else _ARRIVED)
 
 
 class Asset(_Handler):
@@ -166,7 +139,7 @@ class Download(_Handler):
 
     async def get(self, name: str) -> None:
         """Answer."""
-        toml = self.visitor.cases.get(self.get_query_argument("run", ""))
+        toml = self.context.state.kept.cases.get(self.get_query_argument("run", ""))
         if name not in DOWNLOADS or toml is None:
             raise HTTPError(404)
         content = toml.encode() if name == SAVED else await self._made(name, toml)
@@ -177,9 +150,9 @@ class Download(_Handler):
     async def _made(self, name: str, toml: str) -> bytes:
         state = self.context.state
         try:
-            async with self.visitor.downloading:
+            async with state.downloading:
                 order = {"work": name, "case": toml}
-                self.job = Job(order, state.rules.longest, budget=self.visitor.budget)
+                self.job = Job(order, state.rules.longest)
                 return await state.pool.do(self.job)
         except Failed as error:
             raise HTTPError(500, reason=str(error).splitlines()[0][:200]) from None
@@ -201,17 +174,14 @@ class Socket(_Handler, WebSocketHandler):
 
     def prepare(self) -> None:
         """Refuse a socket beyond the limit."""
-        rules = self.context.state.rules
-        if self.context.sockets >= rules.sockets or self.visitor.sockets >= rules.each:
+        if self.context.sockets >= self.context.state.rules.sockets:
             raise HTTPError(503)
 
     def open(self, *_: str, **__: str) -> None:
         """Open the session of the page."""
         self.set_nodelay(True)
-        self.owner = self.visitor
         self.context.sockets += 1
-        self.owner.sockets += 1
-        self.session = PageSession(self.context.state, self.owner, self._send, self.context.log_error)
+        self.session = PageSession(self.context.state, self._send, self.context.log_error)
         self.session.open()
 
     async def on_message(self, message: str | bytes) -> None:
@@ -227,7 +197,6 @@ class Socket(_Handler, WebSocketHandler):
         """Close the session of the page."""
         if self.session is not None:
             self.context.sockets -= 1
-            self.owner.sockets -= 1
             self.session.close()
             self.session = None
 

@@ -36,7 +36,6 @@ from tribodyn.workbench.messages import (
 from tribodyn.workbench.series import Series, SeriesPlan, slope_of, sweep_of
 from tribodyn.workbench.server_state import COMPILING, ServerState, refusal
 from tribodyn.workbench.variant import Origin, Variant, neighbours
-from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
 _UNDRAWN: Final = 5.0
@@ -76,18 +75,14 @@ class PageSession:
     ----------
     state
         Shared by all pages.
-    visitor
-        Whose page it is.
     send
         Sends text or bytes to the page, without waiting.
     log_error
         Called with internal errors.
     """
 
-    def __init__(
-        self, state: ServerState, visitor: Visitor, send: Send, log_error: Callable[[str], None]
-    ) -> None:
-        self.state, self.visitor, self.send, self.log_error = state, visitor, send, log_error
+    def __init__(self, state: ServerState, send: Send, log_error: Callable[[str], None]) -> None:
+        self.state, self.send, self.log_error = state, send, log_error
         self.origin, self.edit = state.origin, Edit()
         self.newest: RunRequest | None = None
         self.served: RunRequest | None = None
@@ -120,7 +115,7 @@ class PageSession:
         for series in self.series.values():
             series.cancel()
         for run in self.pins:
-            self.visitor.unpin(run)
+            self.state.kept.unpin(run)
         if self._patience is not None:
             self._patience.cancel()
 
@@ -189,7 +184,7 @@ class PageSession:
             self.served = request
             try:
                 await self._edit(request.edit)
-                variant = await self.visitor.read(partial(_read, self.origin, request.values))
+                variant = await asyncio.to_thread(_read, self.origin, request.values)
                 request = self.served = _opened(request, variant)
                 answered = await self._answer(request, variant)
             except GivenUp:
@@ -204,16 +199,16 @@ class PageSession:
         """Take the case as the page has edited it, and describe it to the page."""
         if edit == self.edit:
             return
-        self.origin = await self.visitor.read(partial(edited, self.state.origin, edit))
+        self.origin = await asyncio.to_thread(edited, self.state.origin, edit)
         self.edit, self.before = edit, {}
-        description = await self.visitor.read(partial(self.state.described, self.origin, edit))
+        description = await asyncio.to_thread(self.state.described, self.origin, edit)
         unchanged = self.origin.varied({})
-        self.visitor.note(unchanged.run, unchanged.toml)
+        self.state.kept.note(unchanged.run, unchanged.toml)
         self.report({"type": "model", **description})
 
     async def _answer(self, request: RunRequest, variant: Variant) -> bool:
         """Send the answer to a request; False if the page got the reason why there is none."""
-        kept = self.visitor.frame(variant.run)
+        kept = self.state.kept.frame(variant.run)
         if kept is not None:
             self._deliver(kept, request.number, frame.KEPT)
             return True
@@ -232,7 +227,7 @@ class PageSession:
         if expected > _REPORTED:
             self._report_state("running", "", expected, request.number)
         content = await self._made(request, variant)
-        self.visitor.keep(variant.run, variant.toml, content)
+        self.state.kept.keep(variant.run, variant.toml, content)
         self._deliver(content, request.number, 0)
         return True
 
@@ -245,7 +240,7 @@ class PageSession:
             self._ask(request, words, COMPILING)
             return False
         self._report_state("compiling", "compiling the equations of this case", COMPILING, request.number)
-        self.job = self.state.preparation(variant, self.visitor.budget)
+        self.job = self.state.preparation(variant)
         try:
             await self.state.prepare(variant, self.job)
         finally:
@@ -283,7 +278,7 @@ class PageSession:
 
         known = self.state.costs.knows(variant.case)
         limit = 3.0 * rules.unasked if known and not request.agreed else rules.longest
-        self.job = self.state.order(variant, limit, on_event, budget=self.visitor.budget)
+        self.job = self.state.order(variant, limit, on_event)
         try:
             return await self.state.made(variant, self.job)
         finally:
@@ -333,19 +328,18 @@ class PageSession:
         """Compute the runs one step to either side of the slider that moved last."""
         await asyncio.sleep(_CALM)
         around = partial(neighbours, self.origin, request.values, self.before)
-        for values in await self.visitor.read(lambda: [*around()]):
+        for values in await asyncio.to_thread(lambda: [*around()]):
             with suppress(TribodynError, Failed, GivenUp):
-                await self._kept_ahead(await self.visitor.read(partial(_read, self.origin, values)))
+                await self._kept_ahead(await asyncio.to_thread(_read, self.origin, values))
 
     async def _kept_ahead(self, variant: Variant) -> None:
         state, rules = self.state, self.state.rules
         expected = state.costs.expected(variant.case)
-        if variant.run in self.visitor.frames or expected is None or expected > rules.dragged:
+        if variant.run in self.state.kept.frames or expected is None or expected > rules.dragged:
             return
-        budget = self.visitor.budget
-        job = state.order(variant, rules.unasked, lambda event: None, background=True, budget=budget)
+        job = state.order(variant, rules.unasked, lambda event: None, background=True)
         try:
-            self.visitor.keep(variant.run, variant.toml, await state.made(variant, job))
+            self.state.kept.keep(variant.run, variant.toml, await state.made(variant, job))
         except asyncio.CancelledError:
             state.pool.stop(job)
             raise
@@ -361,13 +355,13 @@ class PageSession:
             else partial(slope_of, self.state, self.origin, said)
         )
         try:
-            plan = await self.visitor.read(made)
+            plan = await asyncio.to_thread(made)
         except TribodynError as error:
             self.report(refusal(said.number, error))
             return
         # Unless it was cancelled or replaced while it was planned.
         if self.asked.get(type(said)) == said.number:
-            self.series[type(said)] = Series(self.state, self.visitor, plan, self.report)
+            self.series[type(said)] = Series(self.state, plan, self.report)
 
     # Pins
 
@@ -375,10 +369,10 @@ class PageSession:
         if not kept:
             if run in self.pins:
                 self.pins.remove(run)
-                self.visitor.unpin(run)
+                self.state.kept.unpin(run)
         elif run not in self.pins:
             if len(self.pins) >= self.state.rules.pins:
                 raise InvalidMessage(f"at most {self.state.rules.pins} runs can be pinned")
-            if not self.visitor.pin(run):
+            if not self.state.kept.pin(run):
                 raise InvalidMessage("this run is not kept any more")
             self.pins.add(run)

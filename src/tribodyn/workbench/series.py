@@ -21,7 +21,6 @@ from tribodyn.workbench.cost import in_words, refuse_rows
 from tribodyn.workbench.messages import Slope, Sweep, Values
 from tribodyn.workbench.server_state import ServerState
 from tribodyn.workbench.variant import Origin, Variant
-from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.worker_pool import Failed, GivenUp
 
 AROUND: Final = (-0.10, -0.05, 0.0, 0.05, 0.10)
@@ -60,16 +59,16 @@ class Series:
 
     Parameters
     ----------
-    state, visitor
-        State of the server, and the visitor.
+    state
+        State of the server.
     plan
         What is run.
     report
         Sends a message to the page.
     """
 
-    def __init__(self, state: ServerState, visitor: Visitor, plan: SeriesPlan, report: Report) -> None:
-        self.state, self.visitor, self.plan, self.report = state, visitor, plan, report
+    def __init__(self, state: ServerState, plan: SeriesPlan, report: Report) -> None:
+        self.state, self.plan, self.report = state, plan, report
         self._task = asyncio.create_task(self._compute())
 
     def cancel(self) -> None:
@@ -100,17 +99,17 @@ class Series:
         return point | {name: found[name] for name in ("results", "failure")}
 
     async def _frame(self, variant: Variant) -> bytes:
-        kept = self.visitor.frame(variant.run)
+        kept = self.state.kept.frame(variant.run)
         if kept is not None:
             return kept
-        unasked, budget = self.state.rules.unasked, self.visitor.budget
-        job = self.state.order(variant, unasked, lambda event: None, background=True, budget=budget)
+        unasked = self.state.rules.unasked
+        job = self.state.order(variant, unasked, lambda event: None, background=True)
         try:
             content = await self.state.made(variant, job)
         except asyncio.CancelledError:
             self.state.pool.stop(job)
             raise
-        self.visitor.keep(variant.run, variant.toml, content)
+        self.state.kept.keep(variant.run, variant.toml, content)
         return content
 
 

@@ -1,4 +1,4 @@
-"""Server of one user on this machine, or of many behind a proxy."""
+"""Server of one user on this machine."""
 
 from __future__ import annotations
 
@@ -21,12 +21,10 @@ from tornado.httpserver import HTTPServer
 
 from tribodyn.core import machine
 from tribodyn.core.errors import InputError
-from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, SessionStore, SingleSession
+from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, Session
 from tribodyn.workbench.handlers import ServerContext, application, assets
 from tribodyn.workbench.server_state import Rules, ServerState
-from tribodyn.workbench.sessions import Sessions
 from tribodyn.workbench.variant import Origin
-from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.work import Limits
 from tribodyn.workbench.worker_pool import WorkerPool
 
@@ -53,8 +51,6 @@ _ADDRESS_6: Final = "::1"
 _ATTEMPTS: Final = 20
 _BACKLOG: Final = 128
 _NAME_BYTES: Final = 16
-SHARED: Final = Rules(longest=60.0, sockets=200, each=4, room=16_000_000)
-"""What each of many visitors may request."""
 _LISTEN: Final = 0.2
 """Time between two looks at whether to stop [s]."""
 _LARGEST_HEADER: Final = 16_384
@@ -63,10 +59,9 @@ _WORKERS: Final = 2
 _MOST_WORKERS: Final = 4
 
 
-def workers(*, many: bool = False) -> int:
-    """Return how many workers there are by default, for one person or for many."""
-    found = max(machine.processors(), _WORKERS)
-    return found if many else min(found, _MOST_WORKERS)
+def workers() -> int:
+    """Return the number of workers by default."""
+    return min(max(machine.processors(), _WORKERS), _MOST_WORKERS)
 
 
 def own_name() -> str:
@@ -147,62 +142,28 @@ async def attended(
     """
     chosen = rules or Rules()
     port, name = listeners[0].getsockname()[1], own_name()
-    endpoint = Endpoint("http", frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
-    person = SingleSession(Visitor(chosen.room))
+    endpoint = Endpoint(frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
+    session = Session()
     state = ServerState(origin, WorkerPool(size, Limits()), chosen)
-    opened_at = f"http://{name}:{port}/?{TOKEN}={person.token}"
-    await serve(state, endpoint, person, listeners, lambda: opened(opened_at), stop, log_error)
-
-
-def public(address: str, port: int) -> list[socket.socket]:
-    """Return a socket that listens where a proxy finds it.
-
-    Raises
-    ------
-    InputError
-        The address or the port cannot be had.
-    """
-    family = socket.AF_INET6 if ":" in address else socket.AF_INET
-    return _bound(port, address, family)
-
-
-async def many(
-    origin: Origin,
-    listeners: Sequence[socket.socket],
-    hosts: frozenset[str],
-    *,
-    size: int,
-    opened: Callable[[], None],
-    stop: Callable[[], bool],
-    log_error: Callable[[str], None],
-) -> None:
-    """Serve many, whom a proxy with a certificate has authenticated; see :func:`attended`.
-
-    Parameters
-    ----------
-    hosts
-        Names that browsers know it by, with their ports where these are not 443.
-    """
-    state = ServerState(origin, WorkerPool(size, Limits(), max(1, size - 1)), SHARED)
-    endpoint = Endpoint("https", hosts, "__Host-tribodyn")
-    await serve(state, endpoint, Sessions(SHARED.room), listeners, opened, stop, log_error)
+    opened_at = f"http://{name}:{port}/?{TOKEN}={session.token}"
+    await serve(state, endpoint, session, listeners, lambda: opened(opened_at), stop, log_error)
 
 
 async def serve(
     state: ServerState,
     endpoint: Endpoint,
-    sessions: SessionStore,
+    session: Session,
     listeners: Sequence[socket.socket],
     opened: Callable[[], None],
     stop: Callable[[], bool],
     log_error: Callable[[str], None],
 ) -> None:
-    """Serve visitors with access until ``stop`` is true; see :func:`attended`."""
+    """Serve pages until ``stop`` is true; see :func:`attended`."""
     _silence()
     give_back_large_blocks()
-    context = ServerContext(state, endpoint, sessions, assets(), log_error)
+    context = ServerContext(state, endpoint, session, assets(), log_error)
     server = HTTPServer(
-        AccessControl(endpoint, sessions, application(context)),
+        AccessControl(endpoint, session, application(context)),
         max_header_size=_LARGEST_HEADER,
         max_body_size=0,
         idle_connection_timeout=300,

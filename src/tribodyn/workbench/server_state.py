@@ -1,4 +1,4 @@
-"""State that all visitors of a server share: the case, the workers, and the cost of runs."""
+"""State that all pages of a server share: the case, the workers, the runs that are kept, and their cost."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.workbench.cost import Costs
 from tribodyn.workbench.description import description
+from tribodyn.workbench.kept_runs import KeptRuns
 from tribodyn.workbench.messages import LARGEST, Edit
 from tribodyn.workbench.variant import Origin, Variant
-from tribodyn.workbench.visitor import Budget
 from tribodyn.workbench.worker_pool import Failed, Job, WorkerPool
 
 COMPILING: Final = 60.0
@@ -26,7 +26,7 @@ OnEvent = Callable[[Mapping[str, Any]], None]
 
 @dataclass(frozen=True)
 class Rules:
-    """What a visitor may request.
+    """Limits of what pages may request.
 
     Attributes
     ----------
@@ -36,12 +36,12 @@ class Rules:
         Expected time up to which the user need not agree [s].
     longest
         Time that a run may take [s].
-    pins, sockets, each
-        Pinned runs of a socket; sockets of the whole server and of one visitor.
+    pins, sockets
+        Pinned runs of a socket; sockets of the server.
     messages
         Messages a second that are read from a socket.
     room
-        Size of the frames kept for a visitor [bytes].
+        Size of the frames that are kept [bytes].
     """
 
     dragged: float = 2.0
@@ -49,7 +49,6 @@ class Rules:
     longest: float = 900.0
     pins: int = 8
     sockets: int = 32
-    each: int = 32
     messages: int = 60
     room: int = 100_000_000
 
@@ -65,11 +64,13 @@ class ServerState:
     pool
         The workers.
     rules
-        What visitors may request.
+        Limits of what pages may request.
     status
         The last status reported to all pages: ``state``, ``message`` and ``seconds``.
     listeners
         Called with every new one.
+    downloading
+        Held while a file is made: one at a time.
     """
 
     origin: Origin
@@ -80,6 +81,12 @@ class ServerState:
     status: dict[str, Any] = field(default_factory=dict)
     listeners: list[Callable[[Mapping[str, Any]], None]] = field(default_factory=list)
     ready: asyncio.Event = field(default_factory=asyncio.Event)
+    downloading: asyncio.Lock = field(default_factory=asyncio.Lock)
+
+    @cached_property
+    def kept(self) -> KeptRuns:
+        """Runs that the pages have shown."""
+        return KeptRuns(self.rules.room)
 
     async def warm(self) -> None:
         """Start the workers, have the equations of the case ready, and make its run in each of them."""
@@ -131,10 +138,10 @@ class ServerState:
             self.compiled.add(choices_of(variant.case))
         return answer == b"true"
 
-    def preparation(self, variant: Variant, budget: Budget | None = None) -> Job:
+    def preparation(self, variant: Variant) -> Job:
         """Return the job that has the equations of a case compiled and loaded, as :meth:`order` does."""
         order = {"work": "prepare", "case": variant.toml}
-        return Job(order, self.rules.longest, budget=budget or Budget())
+        return Job(order, self.rules.longest)
 
     async def prepare(self, variant: Variant, job: Job) -> None:
         """Have the equations of a case compiled."""
@@ -148,11 +155,10 @@ class ServerState:
         on_event: OnEvent,
         *,
         background: bool = False,
-        budget: Budget | None = None,
     ) -> Job:
-        """Return the job that makes the frame of a case, charged to a budget."""
+        """Return the job that makes the frame of a case."""
         order = {"work": "picture", "case": variant.toml, "header": variant.header}
-        return Job(order, seconds, background, on_event, budget or Budget())
+        return Job(order, seconds, background, on_event)
 
     async def made(self, variant: Variant, job: Job) -> bytes:
         """Return the body of the frame that a job makes, and remember what it took."""

@@ -13,7 +13,6 @@ from typing import Any, Final
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.core.workers import DEATHS, DIED, Service, WorkerProcess
-from tribodyn.workbench.visitor import Budget
 from tribodyn.workbench.work import EVENT, FAILURE, GIVEN_UP, RESULT, STOP, Limits, reply
 
 _PATIENCE: Final = 2.0
@@ -42,15 +41,12 @@ class Job:
         Whether nobody waits for it.
     on_event
         Called with the progress that a worker reports.
-    budget
-        Of the visitor who requested it.
     """
 
     order: Mapping[str, Any]
     seconds: float
     background: bool = False
     on_event: Callable[[Mapping[str, Any]], None] = lambda event: None
-    budget: Budget = field(default_factory=Budget)
     answer: asyncio.Future[bytes] = field(init=False)
     deaths: int = 0
     took: float = 0.0
@@ -103,21 +99,16 @@ class PoolWorker(WorkerProcess):
 class WorkerPool:
     """A fixed number of workers and the jobs that wait for them.
 
-    Among jobs that a person waits for, that of the visitor who used the least worker time recently is done
-    first; then the oldest.
-
     Parameters
     ----------
     size
         Number of processes.
     limits
         What each may take.
-    each
-        How many of the processes one visitor may use at a time; all by default.
     """
 
-    def __init__(self, size: int, limits: Limits, each: int | None = None) -> None:
-        self.size, self.limits, self.each = size, limits, each or size
+    def __init__(self, size: int, limits: Limits) -> None:
+        self.size, self.limits = size, limits
         self.waiting: deque[Job] = deque()
         self.later: deque[Job] = deque()
         self.workers: list[PoolWorker] = []
@@ -200,15 +191,10 @@ class WorkerPool:
 
     def _next(self) -> Job | None:
         """Return the next job; one worker is kept free of background jobs."""
-        busy = [worker.job for worker in self.workers if worker.job is not None]
-        budgets = [id(job.budget) for job in busy]
-        if able := [job for job in self.waiting if budgets.count(id(job.budget)) < self.each]:
-            # Evaluated once for each: the time used counts less with every moment.
-            taken = {id(budget): budget.taken for budget in (job.budget for job in able)}
-            chosen = min(able, key=lambda job: taken[id(job.budget)])
-            self.waiting.remove(chosen)
-            return chosen
-        if self.later and self.idle and len(busy) < max(1, self.size - 1):
+        if self.waiting:
+            return self.waiting.popleft()
+        busy = sum(worker.job is not None for worker in self.workers)
+        if self.later and self.idle and busy < max(1, self.size - 1):
             return self.later.popleft()
         return None
 
@@ -233,7 +219,6 @@ class WorkerPool:
                 began = loop.time()
                 answer = await loop.run_in_executor(self._threads, worker.do, job)
                 job.took = loop.time() - began
-                job.budget.charge(job.took)
                 if answer is None:
                     job.deaths += 1
                     await self._restart(worker, job)

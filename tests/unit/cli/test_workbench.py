@@ -50,31 +50,6 @@ def test_it_says_where_it_is_lets_one_browser_in_and_leaves_nothing_behind():
     assert left == []
 
 
-def test_a_server_for_many_answers_under_its_public_name_only():
-    options = ["vanes.example.org", "--case", "journal-dry", "--port", "0", "--workers", "1"]
-    command = [*COMMAND[:-1], "serve", *options]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stderr is not None
-        port = int(process.stderr.readline().split(" for ")[0].rpartition(":")[2])
-        address = f"http://127.0.0.1:{port}/"
-        with urllib.request.urlopen(urllib.request.Request(address, headers={"Host": options[0]})) as answer:
-            assert b"/?token=new" in answer.read()
-        with pytest.raises(urllib.error.HTTPError, match="403"):
-            urllib.request.urlopen(address)
-        process.terminate()
-        said = process.stderr.read()
-    assert process.returncode == 0
-    assert "closing the server" in said
-
-
-@pytest.mark.parametrize(
-    "host", ["https://vanes.example.org", "vanes.example.org/path", "Vanes", "*", "a b", "x:99999999", ""]
-)
-def test_a_public_name_is_a_name(host, capsys):
-    assert main(["serve", host]) == 2
-    assert "HOST" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("options", "key"),
     [(["--port", "70000"], "--port"), (["--workers", "0"], "--workers"), (["no-such-case"], "no-such-case")],

@@ -20,19 +20,15 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.views.encode import packed
 from tribodyn.workbench import frame
-from tribodyn.workbench.access import AccessControl, Endpoint, SingleSession
+from tribodyn.workbench.access import AccessControl, Endpoint, Session
 from tribodyn.workbench.handlers import PAGE, ServerContext, application
 from tribodyn.workbench.server import listening
 from tribodyn.workbench.server_state import Rules, ServerState
-from tribodyn.workbench.sessions import Sessions
 from tribodyn.workbench.variant import Origin
-from tribodyn.workbench.visitor import Visitor
 from tribodyn.workbench.work import Limits
 from tribodyn.workbench.worker_pool import GivenUp, Job, WorkerPool
 
 THE_PAGE = b'<!doctype html><meta name="secret" content="">the page'
-PUBLIC = "vanes.example.org"
-"""Name of a server for many."""
 TRIBODYN = [
     *(["setpriv", "--pdeathsig", "TERM"] if shutil.which("setpriv") else []),
     *(sys.executable, "-m", "tribodyn"),
@@ -163,7 +159,7 @@ class Host:
 
     state: ServerState
     context: ServerContext
-    person: SingleSession
+    session: Session
     port: int
     complaints: list[str]
     pages: list[Page] = field(default_factory=list)
@@ -174,11 +170,11 @@ class Host:
 
     @property
     def cookie(self) -> str:
-        return f"tribodyn-{self.port}={self.person._cookie}"
+        return f"tribodyn-{self.port}={self.session.cookie}"
 
     @property
     def secret(self) -> str:
-        return f"secret={self.person.user.secret}"
+        return f"secret={self.session.secret}"
 
     async def get(self, path: str, headers: Mapping[str, str] | None = None, **more: Any) -> HTTPResponse:
         """Ask for a path; by default with the cookie."""
@@ -209,32 +205,28 @@ async def hosting(
     pool: WorkerPool | None = None,
     case: str = "vsv",
     rules: Rules | None = None,
-    sessions: Sessions | None = None,
 ) -> AsyncIterator[Host]:
     """Serve while the block runs; no error of our own may be told of."""
     chosen = rules or Rules()
     listeners = listening(0)
     port = listeners[0].getsockname()[1]
     hosts = frozenset((f"127.0.0.1:{port}", f"ours.localhost:{port}"))
-    endpoint = Endpoint("http", hosts, f"tribodyn-{port}")
-    if sessions is not None:
-        endpoint = Endpoint("https", frozenset({PUBLIC}), "__Host-tribodyn")
-    person = SingleSession(Visitor(chosen.room))
+    endpoint = Endpoint(hosts, f"tribodyn-{port}")
+    session = Session()
     origin = Origin(load_case(case), case)
     state = ServerState(origin, pool or Pretending(), chosen)
     complaints: list[str] = []
-    open_sessions = sessions or person
     context = ServerContext(
         state,
         endpoint,
-        open_sessions,
+        session,
         {PAGE: THE_PAGE, "a.js": b"1"},
         complaints.append,
     )
-    server = HTTPServer(AccessControl(endpoint, open_sessions, application(context)), max_body_size=0)
+    server = HTTPServer(AccessControl(endpoint, session, application(context)), max_body_size=0)
     server.add_sockets(listeners)
     warm = asyncio.create_task(state.warm())
-    host = Host(state, context, person, port, complaints)
+    host = Host(state, context, session, port, complaints)
     try:
         yield host
     finally:

@@ -1,4 +1,4 @@
-"""Frames, and what a visitor's runs are kept as."""
+"""Frames, and the runs that are kept."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from tests.unit.workbench.host import unframed
 
 from tribodyn.views.encode import packed
 from tribodyn.workbench import frame
-from tribodyn.workbench.visitor import MOST_CASES, Visitor
+from tribodyn.workbench.kept_runs import MOST_CASES, KeptRuns
 
 
 def test_arrays_stand_where_the_header_says_at_multiples_of_eight():
@@ -43,22 +43,22 @@ def test_a_header_holds_no_nan():
 
 
 def test_of_runs_the_last_and_the_pinned_are_kept_and_others_as_there_is_room():
-    visitor = Visitor(room=25)
+    runs = KeptRuns(room=25)
     for run in "abcd":
-        visitor.keep(run, f"case {run}", b"x" * 10)
+        runs.keep(run, f"case {run}", b"x" * 10)
         if run == "a":
-            assert visitor.pin("a")
-    assert [run for run in "abcd" if visitor.frame(run)] == ["a", "d"]
-    assert visitor.cases["b"] == "case b", "texts take no room"
-    visitor.unpin("a")
-    visitor.keep("e", "case e", b"x" * 30)
-    assert list(visitor.frames) == ["e"]
-    assert not visitor.pin("nothing")
+            assert runs.pin("a")
+    assert [run for run in "abcd" if runs.frame(run)] == ["a", "d"]
+    assert runs.cases["b"] == "case b", "texts take no room"
+    runs.unpin("a")
+    runs.keep("e", "case e", b"x" * 30)
+    assert list(runs.frames) == ["e"]
+    assert not runs.pin("nothing")
 
 
 def test_texts_of_cases_are_forgotten_in_time():
-    visitor = Visitor(room=1)
+    runs = KeptRuns(room=1)
     for number in range(MOST_CASES + 10):
-        visitor.keep(str(number), "", b"xx")
-    assert len(visitor.cases) == MOST_CASES
-    assert str(MOST_CASES + 9) in visitor.cases
+        runs.keep(str(number), "", b"xx")
+    assert len(runs.cases) == MOST_CASES
+    assert str(MOST_CASES + 9) in runs.cases

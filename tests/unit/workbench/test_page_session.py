@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 
+import pytest
 from tests.unit.workbench.host import Answer, Pretending, hosting, in_loop
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.workbench.frame import KEPT
 from tribodyn.workbench.page_session import _UNHURRIED as UNHURRIED
 from tribodyn.workbench.server_state import Rules
+from tribodyn.workbench.variant import Origin
 
 CLEARANCE = "joint.clearance"
 
@@ -323,3 +326,32 @@ async def test_every_message_of_the_greeting_is_what_the_page_needs() -> None:
         assert robust == sorted(robust, reverse=True)
         assert {section["chapter"] for section in hello["sections"]} == {c["name"] for c in hello["chapters"]}
         assert not isinstance(await page.hear(), Answer)
+
+
+def test_a_page_waits_for_no_other_whose_case_takes_long_to_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    varied, begun, done = Origin.varied, threading.Event(), threading.Event()
+
+    def slow(origin: Origin, values: dict[str, str]) -> object:
+        if values.get("title") == "slow":
+            begun.set()
+            assert done.wait(20.0)
+        return varied(origin, values)
+
+    @in_loop
+    async def test() -> None:
+        async with hosting(Pretending()) as host:
+            hog = await host.greeted()
+            other = await host.greeted()
+            for kind in ("run", "sweep", "slope"):
+                begun.clear()
+                done.clear()
+                more = {"key": "joint.clearance", "from": "20 um", "to": "40 um"} if kind == "sweep" else {}
+                more |= {"key": "joint.clearance"} if kind == "slope" else {}
+                await hog.say(kind, number=1, values={"title": "slow"}, **more)
+                await asyncio.to_thread(begun.wait, 20.0)
+                await other.run(2, {"joint.clearance": f"{30 + len(kind)} um"}, rest=True)
+                assert (await other.picture()).number == 2, "before the first one is read"
+                done.set()
+
+    monkeypatch.setattr(Origin, "varied", slow)
+    test()

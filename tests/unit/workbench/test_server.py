@@ -115,7 +115,7 @@ async def test_a_cookie_that_went_astray_opens_nothing_of_a_person() -> None:
         assert (await host.get(f"{path}&{host.secret}")).code == 200
         assert (await host.get(path)).code == 403
         for shown in SHOWN:
-            assert host.person.user.secret.encode() not in (await host.get(shown)).body
+            assert host.session.secret.encode() not in (await host.get(shown)).body
         with pytest.raises(HTTPClientError, match="403"):
             await host.open(path="/socket")
 
@@ -138,7 +138,7 @@ async def test_other_methods_are_refused() -> None:
 @in_loop
 async def test_the_token_is_traded_once_for_a_cookie_that_scripts_cannot_read() -> None:
     async with hosting() as host:
-        address = f"/?token={host.person.token}"
+        address = f"/?token={host.session.token}"
         assert (await host.get("/?token=wrong", {})).code == 403
         assert (await host.get(f"{address}&token=x", {})).code == 403
         assert (await host.get(address.replace("/", "/assets/a.js", 1), {})).code == 403
@@ -148,14 +148,14 @@ async def test_the_token_is_traded_once_for_a_cookie_that_scripts_cannot_read() 
         assert cookie.startswith(host.cookie)
         for part in ("HttpOnly", "SameSite=Strict", "Path=/"):
             assert part in cookie
-        assert host.person.token not in first.body.decode()
-        assert f'name="secret" content="{host.person.user.secret}"' in first.body.decode()
+        assert host.session.token not in first.body.decode()
+        assert f'name="secret" content="{host.session.secret}"' in first.body.decode()
         assert (await host.get(address, {})).code == 403
         # Who has the cookie and comes back with the address is sent on.
         assert (await host.get(address)).code == 200
         again = (await host.get("/")).body
         assert b"the page" in again
-        assert host.person.user.secret.encode() not in again
+        assert host.session.secret.encode() not in again
 
 
 @in_loop
@@ -257,7 +257,7 @@ async def test_errors_of_our_own_are_told_without_the_address() -> None:
         (told,) = host.complaints
         assert "RuntimeError: broken" in told
         assert "secret" not in told
-        assert host.person.user.secret not in told
+        assert host.session.secret not in told
         host.complaints.clear()
 
 

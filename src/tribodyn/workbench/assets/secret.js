@@ -25,10 +25,9 @@ const secret = {
     history.replaceState(history.state, "", location.pathname + location.hash);
   },
 
-  /** Get another one from a server for many; a server for one person has given its only one away. */
+  /** Say what to do without it: the server has given its only one away. */
   lost() {
-    if (location.protocol === "https:") location.replace(`/?token=new${location.hash}`);
-    else showError("This browser has lost the secret of this workbench: start the workbench again.", 2);
+    showError("This browser has lost the secret of this workbench: start the workbench again.", 2);
   },
 };
 

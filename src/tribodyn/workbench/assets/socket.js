@@ -13,8 +13,7 @@ const line = {
 
   open() {
     if (!secret.now()) return secret.lost();
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    const socket = new WebSocket(`${scheme}://${location.host}/socket?secret=${secret.now()}`);
+    const socket = new WebSocket(`ws://${location.host}/socket?secret=${secret.now()}`);
     socket.binaryType = "arraybuffer";
     socket.addEventListener("message", ({ data }) => {
       if (typeof data !== "string") return line.hear.run(runOf(data));
