@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, sheet
 from tribodyn.figures.unrolled import draw_map, threshold_line
 from tribodyn.views.series import series, signed
-from tribodyn.views.unrolled import best_cut, unloaded_middle, wall_angles, z_label
+from tribodyn.views.unrolled import WALL, best_cut, unloaded_middle, wall_angles, z_label
 
 TITLE: Final = "Contact pressure on the unrolled bushing"
 Panels: TypeAlias = NDArray[np.object_]
@@ -23,22 +24,37 @@ CONTACT_ZONE: Final = 0.05
 """The contact zone is where the pressure exceeds this share of its peak; the share is ours."""
 
 
-def draw(dataset: xr.Dataset, title: str = TITLE) -> Figure:
-    """Draw the pressure [MPa] of each snapshot: forward motion at the left, reverse at the right."""
+def draw(
+    dataset: xr.Dataset, title: str = TITLE, theta: FloatArray | None = None, label: str = WALL
+) -> Figure:
+    """Draw the pressure [MPa] of each snapshot: forward motion at the left, reverse at the right.
+
+    Parameters
+    ----------
+    dataset
+        A result with snapshots of the pressure.
+    title
+        Title of the sheet.
+    theta, label
+        Angles of the nodes [rad], shape (n_theta,), and what the axis calls them; by default those of the
+        bushing's wall.
+    """
+    theta = wall_angles(dataset) if theta is None else theta
     figure = sheet(dataset, title, 6.2)
     places = _places(dataset)
     rows = max(3, 1 + max((row for row, _ in places), default=0))
     panels = figure.subplots(rows, 2, sharex=True, sharey=True, squeeze=False)
     pressure = np.nan_to_num(dataset["pressure"].values) * 1e-6
     largest = float(pressure.max(initial=0.0)) or 1.0
-    cut = best_cut(wall_angles(dataset), pressure.max(axis=(0, 2), initial=0.0))
+    cut = best_cut(theta, pressure.max(axis=(0, 2), initial=0.0))
     empty = unloaded_middle(dataset, pressure.max(axis=0, initial=0.0))
     for index, place in enumerate(places):
-        mesh = draw_map(panels[place], dataset, pressure[index], cut, largest, empty)
-        _describe(panels[place], dataset, index)
-        threshold_line(panels[place], dataset, pressure[index], cut, CONTACT_ZONE * pressure[index].max())
+        mesh = draw_map(panels[place], dataset, theta, pressure[index], cut, largest, empty)
+        _describe(panels[place], dataset, theta, index)
+        level = CONTACT_ZONE * pressure[index].max()
+        threshold_line(panels[place], dataset, theta, pressure[index], cut, level)
     _blank(panels, set(places))
-    _label(panels, z_label(empty))
+    _label(panels, z_label(empty), label)
     if places:
         bar = figure.colorbar(mesh, ax=panels, shrink=0.6, aspect=30, pad=0.02)
         bar.set_label("contact pressure [MPa]", size=TEXT)
@@ -59,15 +75,15 @@ def _places(dataset: xr.Dataset) -> list[tuple[int, int]]:
     return [(next(down), 0) if ahead else (next(up), 1) for ahead in forward]
 
 
-def _describe(axes: Axes, dataset: xr.Dataset, index: int) -> None:
+def _describe(axes: Axes, dataset: xr.Dataset, theta: FloatArray, index: int) -> None:
     """Write above a map which vane position it is and where its peak lies."""
     field = np.nan_to_num(dataset["pressure"].values[index]) * 1e-6
     angle = float(np.rad2deg(dataset["snapshot_theta_v"].values[index]))
     at_theta, at_z = np.unravel_index(int(field.argmax()), field.shape)
-    theta = float(np.rad2deg(wall_angles(dataset)[at_theta])) % 360.0
+    around = float(np.rad2deg(theta[at_theta])) % 360.0
     z = float(dataset["z"].values[at_z]) * 1e3
     caption(axes, f"({ascii_lowercase[index % 26]})  {angle:.1f}°")
-    text = f"peak {field.max():.3g} MPa at {theta:.0f}°, {signed(z)} mm"
+    text = f"peak {field.max():.3g} MPa at {around:.0f}°, {signed(z)} mm"
     axes.text(1.0, 1.04, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
 
 
@@ -80,12 +96,12 @@ def _blank(panels: Panels, used: set[tuple[int, int]]) -> None:
             axes.spines[:].set_color("#dddddd")
 
 
-def _label(panels: Panels, z_text: str) -> None:
+def _label(panels: Panels, z_text: str, label: str) -> None:
     """Write the axis labels at the outer panels, and the direction above the columns."""
     for axes in panels[:, 0]:
         axes.set_ylabel(z_text, size=TEXT)
     for axes in panels[-1]:
-        axes.set_xlabel("angle from +X towards +Y [°]", size=TEXT)
+        axes.set_xlabel(label, size=TEXT)
     for axes, way in zip(
         panels[0], ("forward, vane angle growing", "reverse, vane angle falling"), strict=True
     ):

@@ -12,7 +12,7 @@ from matplotlib.colors import Colormap, LinearSegmentedColormap
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import GREY, SMALL
-from tribodyn.views.unrolled import height_marks, rolled, shortened, wall_angles
+from tribodyn.views.unrolled import height_marks, rolled, shortened
 
 # White where there is nothing, then steadily darker: a grey print keeps the order.
 COLOURS: Final[Colormap] = LinearSegmentedColormap.from_list(
@@ -21,7 +21,13 @@ COLOURS: Final[Colormap] = LinearSegmentedColormap.from_list(
 
 
 def draw_map(
-    axes: Axes, dataset: xr.Dataset, field: FloatArray, cut: float, largest: float, empty: float
+    axes: Axes,
+    dataset: xr.Dataset,
+    theta: FloatArray,
+    field: FloatArray,
+    cut: float,
+    largest: float,
+    empty: float,
 ) -> QuadMesh:
     """Draw a field on the unrolled bushing.
 
@@ -30,7 +36,9 @@ def draw_map(
     axes
         Where to draw.
     dataset
-        A result with ``theta`` [rad] and ``z`` [m].
+        A result with ``z`` [m].
+    theta
+        Angles of the nodes as the axis counts them [rad], shape (n_theta,).
     field
         Values in the unit of the colour bar, shape (n_theta, n_z).
     cut
@@ -41,7 +49,7 @@ def draw_map(
         From :func:`unloaded_middle` [mm].
     """
     z = dataset["z"].values * 1e3
-    angle, values = rolled(wall_angles(dataset), field, cut)
+    angle, values = rolled(theta, field, cut)
     if empty:
         _shorten_middle(axes, empty, float(z[-1]))
     mesh = axes.pcolormesh(
@@ -93,9 +101,11 @@ def _heights(axes: Axes, z: FloatArray, empty: float) -> None:
     axes.spines[:].set_visible(False)
 
 
-def threshold_line(axes: Axes, dataset: xr.Dataset, field: FloatArray, cut: float, level: float) -> None:
+def threshold_line(
+    axes: Axes, dataset: xr.Dataset, theta: FloatArray, field: FloatArray, cut: float, level: float
+) -> None:
     """Draw the line on which the field equals ``level``."""
-    angle, values = rolled(wall_angles(dataset), field, cut)
+    angle, values = rolled(theta, field, cut)
     if values.min() < level < values.max():
         heights = dataset["z"].values * 1e3
         axes.contour(angle, heights, values.T, levels=[level], colors=[GREY], linewidths=0.8)

@@ -15,7 +15,7 @@ from tribodyn.figures import style
 from tribodyn.figures.base import Family
 from tribodyn.figures.unrolled import draw_map
 from tribodyn.views.series import series, signed
-from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, wall_angles, z_label
+from tribodyn.views.unrolled import WALL, best_cut, rolled, unloaded_middle, wall_angles, z_label
 from tribodyn.views.wear import PANELS, WEAR_HISTORY, fitting_unit, no_feedback
 
 TITLE: Final = "Wear depth of the bushing"
@@ -28,13 +28,14 @@ def draw(dataset: xr.Dataset) -> Figure:
     depth = np.nan_to_num(dataset["wear_depth"].values)
     unit, size = fitting_unit(float(depth.max(initial=0.0)))
     depth = depth / size
-    cut = best_cut(wall_angles(dataset), depth.max(axis=1, initial=0.0))
+    theta = wall_angles(dataset)
+    cut = best_cut(theta, depth.max(axis=1, initial=0.0))
     empty = unloaded_middle(dataset, depth)
-    mesh = draw_map(plan, dataset, depth, cut, float(depth.max(initial=0.0)) or 1.0, empty)
+    mesh = draw_map(plan, dataset, theta, depth, cut, float(depth.max(initial=0.0)) or 1.0, empty)
     _profiles(profile, dataset, depth, cut)
     _key_result(plan, dataset, depth, unit)
     plan.set_ylabel(z_label(empty), size=style.TEXT)
-    style.finish(profile, "angle from +X towards +Y [°]", f"depth [{unit}]")
+    style.finish(profile, WALL, f"depth [{unit}]")
     bar = figure.colorbar(mesh, ax=[plan, profile], shrink=0.7, aspect=30, pad=0.02)
     bar.set_label(f"wear depth [{unit}]", size=style.TEXT)
     bar.ax.tick_params(labelsize=style.SMALL)

@@ -16,6 +16,8 @@ _BETWEEN: Final = tuple(float(cut) for cut in range(0, 360, 15) if cut not in CU
 _BORDERS: Final = (30.0, 15.0, 5.0)
 """What should be free on both sides of a cut [deg], or at least."""
 
+WALL: Final = "angle from +X towards +Y [°]"
+"""Label of an axis with the angles of :func:`wall_angles`."""
 _MOST_STEPS: Final = 3
 """Labelled stretches between the middle and an edge."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -10,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.style import DASHED, GREY, INK, SMALL, Curves, caption, finish, lines, sheet
+from tribodyn.figures.style import DASHED, GREY, INK, SMALL, TEXT, Curves, caption, finish, lines, sheet
 from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth, mean_rate, over_clearances
 from tribodyn.views.series import series
@@ -25,13 +26,13 @@ _SPEEDS: Final = (1e-5, 1e-1)
 def motion_data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return angle and speed of the vane with and without clearance over a cycle."""
     names = ("theta_v", "omega_v", "theta_v_ideal", "omega_v_ideal")
-    return keep(first_cycle(runs.over_clearance(formulation)), *names)
+    return first_cycle(runs.over_clearance(formulation, *names))
 
 
 def force_data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return contact, damping and rigid forces [N] over a cycle."""
     names = [f"F_{part}{axis}" for part in "cdk" for axis in "xy"]
-    return keep(first_cycle(runs.over_clearance(formulation)), *names)
+    return first_cycle(runs.over_clearance(formulation, *names))
 
 
 def attitude_data(runs: Runs, formulation: str) -> xr.Dataset:
@@ -129,23 +130,23 @@ def _paper_speeds(axes: Axes) -> None:
 
 
 def draw_forces(dataset: xr.Dataset) -> Figure:
-    """Draw Figure 17: contact, damping and rigid forces along X and Y, the reversal enlarged."""
-    figure = sheet(dataset, "Fig. 17  Forces with different clearances", 8.6)
-    panels = figure.subplots(3, 2, sharex=True)
+    """Draw Figure 17: contact, damping and rigid forces along X and Y, and the reversal beside each."""
+    figure = sheet(dataset, "Fig. 17  Forces with different clearances", 11.5)
+    panels = figure.subplots(6, 2, sharex="col", width_ratios=(2.0, 1.0))
     time = series(dataset, "time")
     quiet = is_smooth(dataset, time)
     turn = 0.5 * float(dataset.attrs["cycle_period"])
-    letters = iter("abcdef")
-    for row, (part, what) in zip(panels, (("c", "contact"), ("d", "damping"), ("k", "rigid")), strict=True):
-        for axes, axis in zip(row, "xy", strict=True):
-            curves = by_clearance(dataset, f"F_{part}{axis}")
-            lines(axes, time, curves, width=0.9)
-            limits(axes, curves, quiet, above=1.1)
-            enlarge(axes, time, curves, (turn - 0.001, turn + 0.012), (0.65, 0.64, 0.34, 0.34))
-            caption(axes, f"({next(letters)}) {what}, {axis.upper()}")
-            finish(axes, y_label="force [N]")
+    forces = product((("c", "contact"), ("d", "damping"), ("k", "rigid")), "xy")
+    for (axes, beside), ((part, what), axis), letter in zip(panels, forces, "abcdef", strict=True):
+        curves = by_clearance(dataset, f"F_{part}{axis}")
+        lines(axes, time, curves, width=0.9)
+        limits(axes, curves, quiet)
+        enlarge(axes, beside, time, curves, (turn - 0.001, turn + 0.012))
+        caption(axes, f"({letter}) {what}, {axis.upper()}")
+        caption(beside, "the reversal")
+        finish(axes, y_label="force [N]")
     for axes in panels[-1]:
-        axes.set_xlabel("time [s]")
+        axes.set_xlabel("time [s]", size=TEXT)
     _legend(figure, by_clearance(dataset, "F_cx"))
     return figure
 

@@ -12,7 +12,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.pressure import draw as draw_pictures
 from tribodyn.joints.bushing import new_memory, pose_at
 from tribodyn.kernels.joints.bushing import pressure_field
-from tribodyn.papers.cheng_2022.layout import keep
+from tribodyn.papers.cheng_2022.layout import ANGLE, keep
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.places import case_of
@@ -71,9 +71,8 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw the six maps on the unrolled bushing."""
-    return draw_pictures(
-        dataset, "Fig. 15  Contact pressure at six positions of the vane, in static equilibrium"
-    )
+    title = "Fig. 15  Contact pressure at six positions of the vane, in static equilibrium"
+    return draw_pictures(dataset, title, dataset["theta"].values, ANGLE)
 
 
 PRESSURE: Final = PaperFigure("fig15", "contact pressure at six positions of the vane", data, draw)

@@ -41,14 +41,20 @@ class Runs:
     ----------
     note
         Called with a description of each run before it is computed.
+    clearances
+        The clearances of :meth:`every_clearance` [m].
+    changes
+        Keys changed in all runs of a built-in case, by its name, such as those of a coarser grid.
     """
 
     note: Callable[[str], None] = _silent
+    clearances: tuple[float, ...] = CLEARANCES
+    changes: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     _done: dict[str, xr.Dataset] = field(default_factory=dict, repr=False)
 
     def run(self, name: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return the result of a built-in case with some keys changed, as a case file writes them."""
-        case = load_case(name).replace(changes or {})
+        case = load_case(name).replace({**(changes or {}), **self.changes.get(name, {})})
         key = case.to_toml()
         if key not in self._done:
             changed = ", ".join(f"{path} = {value}" for path, value in (changes or {}).items())
@@ -82,15 +88,15 @@ class Runs:
         whole.attrs.pop("contact_law", None)
         return whole
 
-    def over_clearance(self, formulation: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
-        """Return the runs with all clearances of the paper along a dimension ``clearance`` [m]."""
-        return over_clearances(self.every_clearance(formulation, changes))
+    def over_clearance(self, formulation: str, *names: str) -> xr.Dataset:
+        """Return variables over time of the runs with all clearances, along a dimension ``clearance`` [m]."""
+        return over_clearances([run[list(names)] for run in self.every_clearance(formulation)])
 
     def every_clearance(
         self, formulation: str, changes: Mapping[str, object] | None = None
     ) -> list[xr.Dataset]:
         """Return the runs with all clearances of the paper."""
-        return [self.vsv(formulation, value, changes) for value in CLEARANCES]
+        return [self.vsv(formulation, value, changes) for value in self.clearances]
 
 
 def _frozen(run: xr.Dataset) -> xr.Dataset:
@@ -105,9 +111,10 @@ def _vsv_changes(formulation: str, clearance: float) -> dict[str, object]:
 
 
 def over_clearances(runs: list[xr.Dataset]) -> xr.Dataset:
-    """Return results with all clearances of the paper side by side along a dimension ``clearance`` [m]."""
+    """Return results with several clearances side by side along a dimension ``clearance`` [m]."""
     about = {"units": "m", "long_name": "radial clearance of the joint"}
-    whole = joined(runs, xr.Variable("clearance", np.array(CLEARANCES), about))
+    clearances = np.array([run.attrs["clearance"] for run in runs])
+    whole = joined(runs, xr.Variable("clearance", clearances, about))
     whole.attrs.pop("clearance", None)
     return whole
 
@@ -115,7 +122,8 @@ def over_clearances(runs: list[xr.Dataset]) -> xr.Dataset:
 def joined(runs: list[xr.Dataset], index: xr.Variable) -> xr.Dataset:
     """Return results side by side along the dimension of ``index``, at the times of all of them.
 
-    In the impacts the samples of each run follow its own steps, see :func:`at_times`.
+    In the impacts the samples of each run follow its own steps, see :func:`at_times`. Fields over a bushing
+    must have one grid, see :func:`on_grid`.
     """
     if "time" in runs[0].dims:
         times = np.unique(np.concatenate([run["time"].values for run in runs]))
@@ -157,6 +165,22 @@ def _between(run: xr.Dataset, name: str, times: FloatArray) -> FloatArray:
         columns = [np.interp(times, old, one) for one in values.reshape(old.size, -1).T]
         return np.stack(columns, axis=-1).reshape(times.size, *values.shape[1:])
     return np.asarray(CubicHermiteSpline(old, values, run[rate].values)(np.clip(times, old[0], old[-1])))
+
+
+def on_grid(run: xr.Dataset, theta: FloatArray, z: FloatArray) -> xr.Dataset:
+    """Return fields over a bushing at other nodes, linear between their own.
+
+    Parameters
+    ----------
+    run
+        Variables over ``theta`` [rad], a full turn with constant steps, and ``z`` [m].
+    theta, z
+        The nodes wanted, increasing: angles [rad] and heights [m].
+    """
+    turn = run.pad(theta=1, mode="wrap")
+    around = run["theta"].values
+    turn = turn.assign_coords(theta=[around[-1] - 2.0 * np.pi, *around, around[0] + 2.0 * np.pi])
+    return turn.interp(theta=theta, z=z)
 
 
 def finer(run: xr.Dataset, parts: int = 16) -> xr.Dataset:

@@ -16,8 +16,6 @@ from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth
 from tribodyn.views.series import series
 
 CLEARANCE: Final = 20e-6
-INSET: Final = (0.62, 0.62, 0.37, 0.36)
-"""Where the reversal is drawn enlarged."""
 CENTRES: Final[tuple[tuple[str, float, str, style.LineStyle], ...]] = (
     ("top centre", 0.5, style.BLUE, style.SOLID),
     ("middle centre", 0.0, style.INK, style.DASHED),
@@ -49,7 +47,8 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
     time = series(dataset, "time")
     turn = 0.5 * float(dataset.attrs["cycle_period"])
     quiet = is_smooth(dataset, time)
-    for axes, axis, letter in zip(figure.subplots(2, 1, sharex=True), "xy", "ab", strict=True):
+    panels = figure.subplots(2, 2, sharex="col", width_ratios=(2.0, 1.0))
+    for (axes, beside), axis, letter in zip(panels, "xy", "ab", strict=True):
         curves: style.Curves = [
             (series(dataset, f"F_c{axis}"), "contact", "#b4b4b4", style.SOLID),
             (series(dataset, f"F_k{axis}"), "rigid", style.BLUE, style.SOLID),
@@ -57,12 +56,14 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
         ]
         style.lines(axes, time, curves[:1], width=3.0)
         style.lines(axes, time, curves[1:], width=1.0)
-        limits(axes, curves, quiet, above=1.3)
-        enlarge(axes, time, curves, (turn - 0.003, turn + 0.03), INSET)
-        style.caption(axes, f"({letter}) {axis.upper()} direction; impacts beyond the frame are in the inset")
+        limits(axes, curves, quiet)
+        enlarge(axes, beside, time, curves, (turn - 0.003, turn + 0.03))
+        style.caption(axes, f"({letter}) {axis.upper()} direction; impacts leave the frame")
+        style.caption(beside, "the first reversal")
         style.finish(axes, y_label=f"force along {axis.upper()} [N]")
-    axes.set_xlabel("time [s]")
-    handles, labels = axes.get_legend_handles_labels()
+    for axes in panels[-1]:
+        axes.set_xlabel("time [s]", size=style.TEXT)
+    handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
     return figure
 
@@ -107,19 +108,20 @@ def draw_velocities(dataset: xr.Dataset) -> Figure:
     figure = style.sheet(dataset, "Fig. 14  Velocity of the three centres of the trunnion", 5.4)
     time = series(dataset, "time")
     turn = 0.5 * float(dataset.attrs["cycle_period"])
-    for index, (axes, letter) in enumerate(zip(figure.subplots(2, 1, sharex=True), "ab", strict=True)):
+    panels = figure.subplots(2, 2, sharex="col", width_ratios=(2.0, 1.0))
+    for index, ((axes, beside), letter) in enumerate(zip(panels, "ab", strict=True)):
         curves: style.Curves = [
             (centre_velocity(dataset, height)[index], name, colour, dash)
             for name, height, colour, dash in CENTRES
         ]
         style.lines(axes, time, curves, width=1.0)
-        low, high = axes.get_ylim()
-        axes.set_ylim(low, high + 0.9 * (high - low))
-        enlarge(axes, time, curves, (turn - 0.002, turn + 0.03), INSET)
+        enlarge(axes, beside, time, curves, (turn - 0.002, turn + 0.03))
         style.caption(axes, f"({letter}) {'XY'[index]} direction")
+        style.caption(beside, "the first reversal")
         style.finish(axes, y_label="velocity [mm/s]")
-    axes.set_xlabel("time [s]")
-    handles, labels = axes.get_legend_handles_labels()
+    for axes in panels[-1]:
+        axes.set_xlabel("time [s]", size=style.TEXT)
+    handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
     return figure
 

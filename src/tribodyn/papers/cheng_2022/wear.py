@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import SMALL, TEXT, Curves, caption, finish, lines, sheet
 from tribodyn.figures.unrolled import draw_map
-from tribodyn.papers.cheng_2022.layout import STYLES
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, PaperFigure, Runs, over_clearances
+from tribodyn.papers.cheng_2022.layout import ANGLE, STYLES
+from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, on_grid, over_clearances
 from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
 
 CYCLES: Final = (100, 200, 300, 400)
@@ -37,12 +37,13 @@ def worn(
 
 def data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return wear depth [m] by clearance, cycles, angle and height."""
+    index = xr.Variable("cycles", np.array(CYCLES), {"long_name": "drive cycles", "units": "1"})
     rows = []
-    for clearance in CLEARANCES:
+    for clearance in runs.clearances:
         depths = [worn(runs, formulation, clearance, cycles)[["wear_depth"]] for cycles in CYCLES]
-        index = xr.Variable("cycles", np.array(CYCLES), {"long_name": "drive cycles", "units": "1"})
         rows.append(xr.concat(depths, dim=index, combine_attrs="override"))
-    return over_clearances(rows)
+    finest = max(rows, key=lambda row: row.sizes["theta"])
+    return over_clearances([on_grid(row, finest["theta"].values, finest["z"].values) for row in rows])
 
 
 def draw(dataset: xr.Dataset) -> Figure:
@@ -50,16 +51,17 @@ def draw(dataset: xr.Dataset) -> Figure:
     figure = sheet(dataset, "Fig. 19  Wear depth of the bushing with different clearances", 9.6)
     panels = figure.subplots(dataset.sizes["clearance"], 2, sharex=True, width_ratios=(1.3, 1.0))
     depth = dataset["wear_depth"].values / _PICOMETRE
-    cut = best_cut(dataset["theta"].values, depth[:, -1].max(axis=(0, 2)))
+    theta = dataset["theta"].values
+    cut = best_cut(theta, depth[:, -1].max(axis=(0, 2)))
     empty = unloaded_middle(dataset, depth[:, -1].max(axis=0))
     for i, (plan, profile) in enumerate(panels):
-        mesh = draw_map(plan, dataset, depth[i, -1], cut, float(depth.max()), empty)
+        mesh = draw_map(plan, dataset, theta, depth[i, -1], cut, float(depth.max()), empty)
         plan.set_ylabel(z_label(empty), size=TEXT)
         caption(plan, f"({'abcde'[i]}) clearance {dataset['clearance'].values[i] * 1e6:g} µm, 400 cycles")
         _profiles(profile, dataset, depth[i], cut)
         profile.set_ylim(0.0, 1.05 * float(depth.max()))
     for axes in panels[-1]:
-        axes.set_xlabel("bushing angle θ [°]", size=TEXT)
+        axes.set_xlabel(ANGLE, size=TEXT)
     bar = figure.colorbar(mesh, ax=panels[:, 0], shrink=0.5, aspect=40, pad=0.02, location="bottom")
     bar.set_label("wear depth [pm]", size=TEXT)
     bar.ax.tick_params(labelsize=SMALL)
