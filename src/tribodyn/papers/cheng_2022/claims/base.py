@@ -81,7 +81,7 @@ class Trial:
 
     def every_clearance(self, more: Mapping[str, object] | None = None) -> list[xr.Dataset]:
         """Return the mechanism with each clearance of the paper."""
-        return [self.vsv(clearance, more) for clearance in CLEARANCES]
+        return [self.vsv(clearance, more) for clearance in self.runs.clearances]
 
 
 @dataclass(frozen=True)

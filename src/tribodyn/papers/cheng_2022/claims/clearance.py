@@ -16,8 +16,8 @@ from tribodyn.papers.cheng_2022.claims.forces import size
 from tribodyn.papers.cheng_2022.impacts import collision_speed, peaks
 from tribodyn.papers.cheng_2022.runs import smooth
 
-_WIDE: Final = 3
-"""The clearances from this one on are the paper's large ones, 35 and 40 µm."""
+_NARROW: Final = 30e-6
+"""Wider clearances are the paper's large ones, 35 and 40 µm [m]."""
 _SWITCH: Final = 0.1
 """What happens this near to 90° in time is caused by the load that changes sign there [s]."""
 _FINE: Final = {"run.duration": "1.6 s", "run.output_interval": "0.5 ms"}
@@ -31,10 +31,16 @@ def forces_alike(trial: Trial) -> Finding:
     return Finding(f"mean {listed(force, 'N')}: a spread of {spread:.2g} %", spread)
 
 
+def _wide_over_narrow(trial: Trial, values: FloatArray) -> float:
+    """Return the mean of values at the paper's large clearances over that at the others."""
+    wide = np.array(trial.runs.clearances) > 1.01 * _NARROW
+    return float(values[wide].mean() / values[~wide].mean())
+
+
 def oscillation(trial: Trial) -> Finding:
     """Measure the ripple of the contact force in smooth motion at 35 and 40 µm over that below."""
     ripples = np.array([ripple(smooth(run)) for run in trial.every_clearance()])
-    ratio = float(ripples[_WIDE:].mean() / ripples[:_WIDE].mean())
+    ratio = _wide_over_narrow(trial, ripples)
     return Finding(f"ripple {listed(ripples * 1e3, 'mN')}", ratio)
 
 
@@ -73,7 +79,7 @@ def _near_90(run: xr.Dataset) -> float:
 def rigid_smaller(trial: Trial) -> Finding:
     """Measure the largest rigid force of the reversals at 35 and 40 µm over that below."""
     found = np.array([peaks(run, "k").max() for run in trial.every_clearance()])
-    return Finding(f"peaks {listed(found, 'N')}", float(found[_WIDE:].mean() / found[:_WIDE].mean()))
+    return Finding(f"peaks {listed(found, 'N')}", _wide_over_narrow(trial, found))
 
 
 def _grows(trial: Trial, names: dict[str, tuple[str, float]], unit: str) -> Finding:

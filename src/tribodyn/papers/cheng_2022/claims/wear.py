@@ -65,7 +65,7 @@ def grows_with_cycles(trial: Trial) -> Finding:
 
 def grows_with_clearance(trial: Trial) -> Finding:
     """Measure the growth of the depth after 400 cycles with the clearance."""
-    depths = np.array([_depth(trial, clearance).max() for clearance in CLEARANCES])
+    depths = np.array([_depth(trial, clearance).max() for clearance in trial.runs.clearances])
     return Finding(listed(depths, "nm"), least_growth(depths))
 
 
