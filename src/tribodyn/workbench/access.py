@@ -28,7 +28,7 @@ _REFUSED: Final = b"403: this is not for you\n"
 
 
 @dataclass
-class Session:
+class UserSession:
     """Session of the user: a token that can be exchanged once for a cookie and the secret of the page.
 
     Attributes
@@ -123,7 +123,7 @@ class AccessControl(Router):
         Answers requests that pass.
     """
 
-    def __init__(self, endpoint: Endpoint, session: Session, application: Application) -> None:
+    def __init__(self, endpoint: Endpoint, session: UserSession, application: Application) -> None:
         self.endpoint, self.session, self.application = endpoint, session, application
 
     def find_handler(self, request: HTTPServerRequest, **options: object) -> HTTPMessageDelegate | None:

@@ -12,7 +12,7 @@ from typing import Any, Final
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from tribodyn.workbench.access import TOKEN, Endpoint, Session, argument_of
+from tribodyn.workbench.access import TOKEN, Endpoint, UserSession, argument_of
 from tribodyn.workbench.description import DOWNLOADS
 from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.page_session import PageSession
@@ -61,7 +61,7 @@ class ServerContext:
 
     state: ServerState
     endpoint: Endpoint
-    session: Session
+    session: UserSession
     assets: Mapping[str, bytes]
     log_error: Callable[[str], None]
     sockets: int = 0

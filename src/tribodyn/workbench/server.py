@@ -21,7 +21,7 @@ from tornado.httpserver import HTTPServer
 
 from tribodyn.core import machine
 from tribodyn.core.errors import InputError
-from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, Session
+from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, UserSession
 from tribodyn.workbench.handlers import ServerContext, application, assets
 from tribodyn.workbench.server_state import Rules, ServerState
 from tribodyn.workbench.variant import Origin
@@ -143,7 +143,7 @@ async def attended(
     chosen = rules or Rules()
     port, name = listeners[0].getsockname()[1], own_name()
     endpoint = Endpoint(frozenset((f"{name}:{port}", f"{ADDRESS}:{port}")), f"tribodyn-{port}")
-    session = Session()
+    session = UserSession()
     state = ServerState(origin, WorkerPool(size, Limits()), chosen)
     opened_at = f"http://{name}:{port}/?{TOKEN}={session.token}"
     await serve(state, endpoint, session, listeners, lambda: opened(opened_at), stop, log_error)
@@ -152,7 +152,7 @@ async def attended(
 async def serve(
     state: ServerState,
     endpoint: Endpoint,
-    session: Session,
+    session: UserSession,
     listeners: Sequence[socket.socket],
     opened: Callable[[], None],
     stop: Callable[[], bool],

@@ -20,7 +20,7 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.views.encode import packed
 from tribodyn.workbench import frame
-from tribodyn.workbench.access import AccessControl, Endpoint, Session
+from tribodyn.workbench.access import AccessControl, Endpoint, UserSession
 from tribodyn.workbench.handlers import PAGE, ServerContext, application
 from tribodyn.workbench.server import listening
 from tribodyn.workbench.server_state import Rules, ServerState
@@ -159,7 +159,7 @@ class Host:
 
     state: ServerState
     context: ServerContext
-    session: Session
+    session: UserSession
     port: int
     complaints: list[str]
     pages: list[Page] = field(default_factory=list)
@@ -212,7 +212,7 @@ async def hosting(
     port = listeners[0].getsockname()[1]
     hosts = frozenset((f"127.0.0.1:{port}", f"ours.localhost:{port}"))
     endpoint = Endpoint(hosts, f"tribodyn-{port}")
-    session = Session()
+    session = UserSession()
     origin = Origin(load_case(case), case)
     state = ServerState(origin, pool or Pretending(), chosen)
     complaints: list[str] = []
