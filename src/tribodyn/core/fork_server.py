@@ -39,8 +39,8 @@ ENVIRONMENT: Final = {
     )
 } | {"MALLOC_MMAP_THRESHOLD_": str(32 << 20), "MALLOC_TRIM_THRESHOLD_": str(64 << 20)}
 """Environment variables that the processes need from their beginning."""
-_MODULE: Final = "tribodyn.studies.template"
-"""What the server imports: a name, for the module is of a higher layer."""
+_MODULES: Final = ("tribodyn.__main__", "tribodyn.studies.template")
+"""Modules that the server imports: names, for they are of higher layers. The first one ignores settings."""
 _CASE: Final = "TRIBODYN_FORK_SERVER_CASE"
 """Environment variable with what :func:`start` is given, as JSON."""
 _LONGEST: Final = 100_000
@@ -64,7 +64,7 @@ def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = Mappin
             # Which the server would start, and which lets signals through again when it has begun.
             resource_tracker.ensure_running()
         given = json.dumps({"name": name, "toml": toml, "changes": dict(changes)})
-        _context().set_forkserver_preload([_MODULE])
+        _context().set_forkserver_preload([*_MODULES])
         with _set(ENVIRONMENT | ({_CASE: given} if len(given) < _LONGEST else {})), _uninterrupted():
             forkserver.ensure_running()
 

@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 Steps = Callable[[], Any]
 _Result = TypeVar("_Result")
 
-_CHILD: Final = "from tribodyn.simulation import compile_for_parent; compile_for_parent(ahead={})"
+_CHILD: Final = (
+    "from tribodyn.core.working_directory import ignore_settings; ignore_settings(); "
+    "from tribodyn.simulation import compile_for_parent; compile_for_parent(ahead={})"
+)
 PROCESSES: Final = 2
 """Processes that compile the equations of a case, at most."""
 _LISTEN: Final = 0.1
