@@ -36,7 +36,7 @@ def draw(data, seed):
 
 
 @pytest.mark.parametrize("friction", ["traction", "moment"])
-@pytest.mark.parametrize("formulation", ["exact", "paper"])
+@pytest.mark.parametrize("formulation", ["exact", "paper", "printed"])
 def test_jacobian_of_the_accelerations(make_vsv, formulation, friction):
     data = vsv_data(make_vsv(formulation, friction=friction))
     lifted = 0

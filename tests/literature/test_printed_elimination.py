@@ -59,7 +59,7 @@ def instant(vsv, data, memory, t):
         b=-o3 * [1.0, 0.0, 1.0],
         f_2=-m.m_2 * acceleration[layout.O2_X : layout.O2_Z + 1],
         f_3=-m.m_3 * acceleration[layout.O3_X : layout.O3_Z + 1],
-        m_2=-vsv.link_inertia * np.cross(n, bend),
+        m_2=-vsv.link_inertia * np.cross(n, bend) * [1.0, -1.0, 1.0],  # Eq. 30 is about −Y
         m_3y=-float(vsv.ring_inertia * acceleration[layout.THETA_B]),
         g_2=m.m_2 * vsv.gravity,
         g_3=m.m_3 * vsv.gravity,

@@ -167,7 +167,7 @@ NUMBERS: Final[Numbers] = {
     "a, h* = 2": partial(point_ratio, h_star=2.0),
     "pressure, h* = 0 [MPa]": partial(pressure, h_star=0.0, digits=".0f", unit=1e6),
     "pressure, h* = 4 [kPa]": partial(pressure, h_star=4.0, digits=".0f", unit=1e3),
-    "pressure, h* = 6.5 [Pa]": partial(pressure, h_star=6.5, digits=".2f", unit=1.0),
+    "pressure, h* = 6.5 [Pa]": partial(pressure, h_star=6.5, digits=".1e", unit=1.0),
     "laws apart at 14 MPa [σ]": apart,
     **{
         f"stiffness at {level} MPa [MPa/µm]": lambda runs, level=level: f"{slope(runs, level * 1e6):.3g}"

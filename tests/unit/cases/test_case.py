@@ -56,7 +56,7 @@ def changes(draw: st.DrawFn) -> dict[str, object]:
     paths = draw(st.lists(st.sampled_from(sorted(CHANGEABLE)), max_size=8, unique=True))
     result = {path: _near(CHANGEABLE[path], draw(SCALES)) for path in paths}
     words: dict[str, st.SearchStrategy[Any]] = {
-        "mechanism.formulation": st.sampled_from(["exact", "paper"]),
+        "mechanism.formulation": st.sampled_from(["exact", "paper", "printed"]),
         "joint.friction": st.sampled_from(["traction", "moment"]),
         "run.start": st.sampled_from(["equilibrium", "centred"]),
         "contact.tensile_clip": st.booleans(),
@@ -128,8 +128,9 @@ def test_defaults_are_those_of_the_tables() -> None:
 
 
 def test_formulation_decides_defaults_unless_they_are_given() -> None:
-    paper: Any = CASE.replace({"mechanism.formulation": "paper"})
-    assert (paper.joint.friction, paper.run.start) == ("moment", "centred")
+    for own in ("printed", "paper"):
+        paper: Any = CASE.replace({"mechanism.formulation": own})
+        assert (paper.joint.friction, paper.run.start) == ("moment", "centred")
     mixed: Any = paper.replace({"joint.friction": "traction"})
     assert (mixed.joint.friction, mixed.run.start) == ("traction", "centred")
     back: Any = paper.replace({"mechanism.formulation": "exact"})

@@ -237,11 +237,12 @@ def test_a_short_lift_off_is_noted_in_per_cent_of_the_run(make_vsv: Callable[...
     assert notes(vsv, lift_off=2.0 * LIFT_OFF_LIMIT) == []
 
 
+@pytest.mark.parametrize("formulation", ["paper", "printed"])
 def test_every_run_of_the_paper_s_equations_notes_that_they_can_gain_energy(
-    make_vsv: Callable[..., Vsv],
+    make_vsv: Callable[..., Vsv], formulation: str
 ) -> None:
-    (message,) = notes(make_vsv("paper"))
-    assert message.startswith("The equations of formulation 'paper' can gain energy in an impact")
+    (message,) = notes(make_vsv(formulation))
+    assert message.startswith(f"The equations of formulation '{formulation}' can gain energy in an impact")
     assert "compare with mechanism.formulation = 'exact'" in message
 
 

@@ -16,7 +16,7 @@ from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS
 CONSTANTS: Final = tuple(
     Quantity(name, unit, meaning, ())
     for name, unit, meaning in (
-        ("exact", "1", "1 for the formulation `exact`, 0 for `paper`"),
+        ("exact", "1", "1 for the formulation `exact`, 0 for `paper`, -1 for `printed`"),
         ("l_1", "m", "crank"),
         ("l_2", "m", "drag link"),
         ("l_3", "m", "ring radius"),
@@ -125,6 +125,7 @@ Scratch: Final = record_type(
     ("wrench_jacobian", "f8", (5, 9)),
     ("small", "f8", (4, 4)),
     ("closed", "f8", (N_ROWS, N_COLUMNS)),
+    ("angles", "f8", (2, 3)),
     ("places", "f8", (N_OVER, 2)),
     ("air", "f8", (N_AIR,)),
     ("air_over_time", "f8", (2, N_AIR)),
@@ -133,7 +134,8 @@ Scratch: Final = record_type(
 )
 """Work of one evaluation; nothing is carried from one evaluation to the next.
 
-``secants`` are sec² φ_x and sec² φ_y; ``closed`` is the motion table of ``paper`` with the offsets alone.
+``secants`` are sec² φ_x and sec² φ_y; ``closed`` is the motion table of ``paper`` with the offsets
+alone; ``angles`` are θ_sz and θ_sx with two derivatives, in ``printed``.
 ``marked`` is 1 while the others hold what the ledger evaluated at its mark.
 """
 

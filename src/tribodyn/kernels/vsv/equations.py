@@ -4,7 +4,7 @@ Every body contributes Σ_rows (F_r − m_r a_r) δr = 0 along a test motion δr
 motions are the true ones, the columns of the motion table. In ``paper`` they are those with which
 the printed equations eliminate the reactions (rows of Eq. 46): ring and drag link with the vane
 following in translation, rotation of the vane about the pin, and the two tilts without the moment
-of the lever force.
+of the lever force. In ``printed`` they are the coefficients that Appendix 2 prints.
 """
 
 from __future__ import annotations
@@ -61,6 +61,7 @@ from tribodyn.kernels.vsv.layout import (
 )
 from tribodyn.kernels.vsv.motion import fill_motion, ring_centre
 from tribodyn.kernels.vsv.place import place
+from tribodyn.kernels.vsv.printed import add_printed_entries, fill_printed_motion, fill_printed_tests
 
 
 @kernel
@@ -74,6 +75,12 @@ def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -
     clear(test)
     for row in range(N_BODY):
         test[row, 0] = motion[row, 0]
+    for row in (E_X, OV_X):
+        # F_43 has no part along Z here, so it drops out only where vane and ring keep together along X.
+        test[row, 0] = -motion[S3_Z, VALUE] * motion[THETA_B, 0] - motion[S3_X, 0]
+    if mechanism.exact < 0.0:
+        fill_printed_tests(mechanism, motion, test)
+        return
     s2_x, s2_z = motion[S2_X, VALUE], motion[S2_Z, VALUE]
     d_x = s2_x - motion[S1_X, VALUE]
     d_y = motion[S2_X + 1, VALUE] - mechanism.l_4
@@ -88,8 +95,6 @@ def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -
         test[N_X + axis, 1] = d_s2[axis] / mechanism.l_2
         test[O3_X + axis, 1] = d_o3[axis]
     for row in (E_X, OV_X):
-        # F_43 has no part along Z here, so it drops out only where vane and ring keep together along X.
-        test[row, 0] = -motion[S3_Z, VALUE] * motion[THETA_B, 0] - motion[S3_X, 0]
         test[row, 1] = -motion[S3_Z, VALUE] * kappa
         test[row + 1, 1] = 1.0
     theta_v = motion[THETA_V, VALUE]
@@ -215,6 +220,9 @@ def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
     scratch.marked = 0.0
     secants = fill_motion(mechanism, drive(data, memory.segment, t), y, scratch.motion)
     scratch.secants[0], scratch.secants[1] = secants
+    if mechanism.exact < 0.0:
+        scratch.secants[0] = scratch.secants[1] = 1.0
+        fill_printed_motion(mechanism, y, scratch.motion, scratch.angles)
     fill_air(data, t, memory)
     fill_test_motions(mechanism, scratch.motion, scratch.test)
     return slip_speed(memory.regime, scratch.motion)
@@ -234,6 +242,8 @@ def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory) -> floa
     mechanism = data.mechanism
     fill_forces(data, y, memory)
     assemble(mechanism.inertia, memory.scratch)
+    if mechanism.exact < 0.0:
+        add_printed_entries(mechanism, y, memory.scratch)
     add_collar(mechanism, memory.scratch, 1.0)
     f_cz = _solve(mechanism, memory.scratch)
     if f_cz < 0.0:

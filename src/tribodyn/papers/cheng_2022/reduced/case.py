@@ -50,8 +50,10 @@ class VaneJoint(PlainJoint):
 class MechanismKeys(Group):
     """Crank, drag link, unison ring, lever with vane."""
 
-    formulation: Literal["exact", "paper"] = choice(
-        "exact", "one consistent set of equations, or the paper's own", "manual, the mechanism"
+    formulation: Literal["exact", "paper", "printed"] = choice(
+        "exact",
+        "one consistent set of equations, the paper's with mended entries, or the paper's as printed",
+        "manual, the mechanism",
     )
     crank_length: float = quantity("47.7 mm", "length of the crank l_1", TABLE_2, gt=0)
     drag_link_length: float = quantity("142.4 mm", "length of the drag link l_2", TABLE_2, gt=0)
@@ -187,7 +189,7 @@ class VsvCase(BushingCase):
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from the contact law and the formulation, and the length."""
         defaults = super().resolve(given) | _rod_inertias(given) | DEFAULT
-        if given.get("mechanism.formulation") == "paper":
+        if given.get("mechanism.formulation", "exact") != "exact":
             defaults |= {"joint.friction": "moment", "run.start": "centred"}
         if "run.duration" not in given:
             tabulated = any(f"drive.{name}.values" in given for name in DRIVE_TABLES)
@@ -342,7 +344,7 @@ class VsvCase(BushingCase):
     def _check_inertias(self) -> None:
         """Check that the inertias about rod ends and casing axis leave something about the mass centres."""
         m = self.mechanism
-        if m.formulation == "paper":
+        if m.formulation != "exact":
             return
         ring_arm = 0.5 * m.ring_radius * math.cos(0.5 * m.ring_angle)
         faults = Faults()

@@ -24,10 +24,11 @@ from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
 GAINS_ENERGY: Final = (
-    "the equations of formulation 'paper' can gain energy in an impact, with damping and at small loads too; "
+    "the equations of formulation {!r} can gain energy in an impact, with damping and at small loads too; "
     "compare with mechanism.formulation = 'exact'"
 )
-"""Why a run in ``paper`` may leave the range of the contact law: see the manual, two energy balances."""
+"""Why a run in ``paper`` or ``printed`` may leave the range of the contact law: see the manual, two energy
+balances."""
 
 
 def warnings(
@@ -96,7 +97,7 @@ def notes(
     """
     share = lift_off_share(found, t_end)
     messages = [
-        "" if vsv.exact else f"{GAINS_ENERGY[0].upper()}{GAINS_ENERGY[1:]}.",
+        "" if vsv.exact else f"T{GAINS_ENERGY.format(vsv.formulation)[1:]}.",
         of_lift_off(share) if 0.0 < share <= LIFT_OFF_LIMIT else "",
         of_damping_pressure(pressure, found["pressure_at_rest"]),
         _of_reversals(vsv, t_end, turns, carried),

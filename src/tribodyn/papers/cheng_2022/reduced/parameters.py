@@ -20,7 +20,8 @@ from tribodyn.mechanisms.peaks import impact_time
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
-FORMULATIONS: Final = ("exact", "paper")
+FORMULATIONS: Final = {"exact": 1.0, "paper": 0.0, "printed": -1.0}
+"""Formulations, each with its number in the kernels."""
 LEAST_SWING: Final = 1.0e-9
 """Of the crank: one that moves less passes no angle at a time of its own [rad]."""
 _LEAST_RANGE: Final = 1.0e-4
@@ -211,7 +212,7 @@ class Vsv:
     Attributes
     ----------
     formulation
-        ``exact`` or ``paper``, see the theory manual.
+        ``exact``, ``paper`` or ``printed``, see the theory manual.
     lengths, inertias, drive, air
         See their classes.
     gravity
@@ -251,7 +252,7 @@ class Vsv:
 
     @property
     def vane_arm(self) -> float:
-        """Distance from O_j down to the vane centre [m]: (l_v − l_z)/2, in ``paper`` l_v/2."""
+        """Distance from O_j down to the vane centre [m]: (l_v − l_z)/2; l_v/2 unless ``exact``."""
         below_lever = self.joint.geometry.length if self.exact else 0.0
         return 0.5 * (self.lengths.l_v - below_lever)
 

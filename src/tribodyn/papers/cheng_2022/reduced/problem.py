@@ -30,7 +30,7 @@ from tribodyn.mechanisms.actions import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.signals import SignalList, pieces_of
 from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
-from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
+from tribodyn.papers.cheng_2022.reduced.parameters import FORMULATIONS, CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_table
 from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
@@ -62,7 +62,7 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
     lengths, inertias, drive = vsv.lengths, vsv.inertias, vsv.drive
     ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, *vsv.drive.crank_range(duration))
     mechanism = new_mechanism(
-        exact=1.0 if vsv.exact else 0.0,
+        exact=FORMULATIONS[vsv.formulation],
         l_1=lengths.l_1,
         l_2=lengths.l_2,
         l_3=lengths.l_3,

@@ -338,7 +338,7 @@ class VsvSystem:
         """Return why the run stopped before its end, empty if it did not."""
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
         if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] == BEYOND_LAW:
-            cause = () if self.vsv.exact else (GAINS_ENERGY,)
+            cause = () if self.vsv.exact else (GAINS_ENERGY.format(self.vsv.formulation),)
             return beyond_law(self.bushing.table.h_first, t, "trunnion and bushing", *cause)
         angle = float(self.vsv.drive.angle(np.array([t]))[0])
         if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, angle, y):
