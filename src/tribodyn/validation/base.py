@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Final, Literal
+from typing import Final, Literal, TypeAlias
 
 
 class Verdict(StrEnum):
@@ -15,6 +15,20 @@ class Verdict(StrEnum):
     WITHIN = "within the band"
     OUTSIDE = "outside"
     REPORTED = "reported only"
+
+
+class Kind(StrEnum):
+    """Kind of check that the numbers of a set are; they are counted apart, never as one sum."""
+
+    PREDICTED = "predicted before measured"
+    TABLES = "tables of others"
+    FITS = "fits"
+    CONSISTENCY = "self-consistency"
+    OWN = "your own rig"
+
+
+Sides: TypeAlias = tuple[float, float]
+"""Widths of an interval below and above its value."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +105,10 @@ class Comparison:
         Computed value.
     measured
         Measured value; None where there is a limit alone.
-    u_computed, u_measured
-        Half widths of the intervals of both.
+    u_computed
+        Half width of the interval of the computed value, or its widths below and above.
+    u_measured
+        Half width of the interval of the measured value.
     null
         What a hand formula or an interpolation gives; None where there is none.
     band
@@ -109,7 +125,7 @@ class Comparison:
     unit: str
     computed: float
     measured: float | None = None
-    u_computed: float = 0.0
+    u_computed: float | Sides = 0.0
     u_measured: float = 0.0
     null: float | None = None
     band: Band | None = None
@@ -118,12 +134,31 @@ class Comparison:
     note: str = ""
 
     @property
+    def sides(self) -> Sides:
+        """Widths of the interval of the computed value below and above it."""
+        return self.u_computed if isinstance(self.u_computed, tuple) else (self.u_computed, self.u_computed)
+
+    @property
     def error(self) -> float | None:
-        """E = |difference| / sqrt(u_c² + u_m²) [1]; None without a measured value or an uncertainty."""
-        width = math.hypot(self.u_computed, self.u_measured)
-        if self.measured is None or width == 0.0:
+        """E = |difference| / sqrt(u_c² + u_m²) [1] with u_c on the side of the measured value.
+
+        None without a measured value, or where neither has an uncertainty; infinite where the measured value
+        lies on a side to which nothing moves the computed one.
+        """
+        if self.measured is None or not any((*self.sides, self.u_measured)):
             return None
-        return abs(self.computed - self.measured) / width
+        difference = abs(self.computed - self.measured)
+        width = math.hypot(self.sides[self.measured > self.computed], self.u_measured)
+        if width == 0.0:
+            return math.inf if difference else 0.0
+        return difference / width
+
+    @property
+    def null_within(self) -> bool | None:
+        """Whether the null model lies within the band; None without one, or with a band for intervals."""
+        if self.null is None or self.band is None or self.band.covers is not None:
+            return None
+        return self.band.accepts(self.null, self.null, self.measured)
 
     @property
     def verdict(self) -> Verdict:

@@ -15,7 +15,7 @@ from typing import Any, Final, cast
 from tribodyn.cases.units import from_si, si_unit, to_si, unit_of
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
-from tribodyn.validation.base import Band, Outcome
+from tribodyn.validation.base import Band, Kind, Outcome
 
 NAMES: Final = (
     "servo_friction_models",
@@ -90,6 +90,11 @@ class ValidationSet:
     def title(self) -> str:
         """What was measured, in a few words."""
         return str(self.table["title"])
+
+    @property
+    def kind(self) -> Kind:
+        """Kind of check."""
+        return Kind(self.table["kind"])
 
     @cached_property
     def inputs(self) -> dict[str, Input]:

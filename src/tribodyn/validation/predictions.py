@@ -1,8 +1,10 @@
 """The register of predictions: numbers stated before the measured values are seen.
 
 ``predictions.toml`` holds one entry for each number: the set, the day, the hash of the inputs and data that
-it was computed from, value and interval. This module computes them anew, so that a test finds any entry that
-was changed. An entry is never changed or removed; a better model adds entries with a later date.
+it was computed from, value and interval. This module computes the newest anew, so that a test finds any entry
+that was changed. An entry is never changed or removed; a better model adds entries with a later date. Entries
+since 2026-11-26 state how the value is read, the level of the interval with both sides, the null model with
+its interval, and what would refute them.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import math
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any, Final
@@ -23,7 +25,7 @@ from tribodyn.validation.sets.journal_peak_pressure import compare as peak
 from tribodyn.validation.sets.oblique_impact import compare as oblique
 from tribodyn.validation.sets.screw_drive_friction import laws as screw
 from tribodyn.validation.sets.servo_play import compare as play
-from tribodyn.validation.vary import varied
+from tribodyn.validation.vary import Varied, varied
 
 FILE: Final = "predictions.toml"
 HELD_LOAD: Final = 450.0
@@ -36,6 +38,10 @@ _START: Final = (0.9, 1.3)
 _STOP: Final = (0.85, 1.15)
 
 
+LEVEL: Final = 0.95
+"""Level of all intervals: ends of bands of inputs and half widths of data are those of 95 % intervals."""
+
+
 @dataclass(frozen=True)
 class Prediction:
     """A number stated before its measured value is seen.
@@ -46,6 +52,12 @@ class Prediction:
         Validation set, what it is, and its unit.
     value, low, high
         Value and interval.
+    null, null_low, null_high
+        Value and interval of the null model.
+    reading
+        How the measured value is read.
+    half_width
+        Half width of that reading.
     """
 
     set: str
@@ -54,6 +66,17 @@ class Prediction:
     value: float
     low: float
     high: float
+    null: float
+    null_low: float
+    null_high: float
+    reading: str
+    half_width: float
+
+    @property
+    def refuted_by(self) -> str:
+        """Measured values that refute the prediction."""
+        low, high = self.low - self.half_width, self.high + self.half_width
+        return f"a measured value below {low:.4g} or above {high:.4g} {self.unit}"
 
 
 def register() -> list[dict[str, Any]]:
@@ -81,66 +104,87 @@ def computed() -> Iterator[Prediction]:
 
 
 def _peak_pressures(one: ValidationSet) -> Iterator[Prediction]:
-    """Peak pressure by the film, and by the measured ratios of peak to mean pressure over the load."""
+    """Peak pressure by the film; null model: the measured ratios of peak to mean pressure over the load."""
     places = [(speed, HELD_LOAD) for speed in HELD_SPEEDS]
     result = varied(lambda given: peak.peaks(given, places), one.inputs.values())
     measured = {
         (float(row["speed_rpm"]), float(row["load_N"])): float(row["peak_pressure_measured_kPa"])
         for row in one.rows("peak_pressure.csv")
     }
+    gauge = one.value("gauge") / 1e3
+    reading = "largest gauge pressure of the middle plane at this speed and load, to one step of the gauge"
     for k, speed in enumerate(HELD_SPEEDS):
-        value, half = float(result.values[k]), float(result.half_widths[k])
-        name = f"peak pressure, {speed:g} rpm, {HELD_LOAD:g} N"
-        yield Prediction(one.name, f"{name}, film", "kPa", value, value - half, value + half)
         straight = 2.0 * measured[speed, 300.0] - measured[speed, 150.0]
         ratio = HELD_LOAD * measured[speed, 300.0] / 300.0
         power = measured[speed, 300.0] * 1.5 ** math.log2(measured[speed, 300.0] / measured[speed, 150.0])
-        yield Prediction(
-            one.name,
-            f"{name}, extrapolated",
-            "kPa",
-            power,
-            0.9 * min(straight, ratio),
-            1.1 * max(ratio, power),
-        )
+        null = power, 0.9 * min(straight, ratio), 1.1 * max(ratio, power)
+        name = f"peak pressure, {speed:g} rpm, {HELD_LOAD:g} N, film"
+        yield Prediction(one.name, name, "kPa", *_interval(result, k), *null, reading, gauge)
+
+
+def _interval(result: Varied, k: int) -> tuple[float, float, float]:
+    """Return a value and the ends of its interval."""
+    value, (below, above) = float(result.values[k]), result.sides_at(k)
+    return value, value - below, value + above
 
 
 def _servos(one: ValidationSet) -> Iterator[Prediction]:
-    """Two servos on one lever: half the compliance; play between none and that of one, none if preloaded."""
+    """Two servos on one lever: half the compliance; play between none and that of one, none if preloaded.
+
+    Null model: the deviation of one servo.
+    """
     found = play.fitted(one, play.SINGLE)
     single, band = found.named, number_in(one.inputs["dead_band"].high, "deg")
     (_, most), (soft, stiff) = play.interval(found, "play"), play.interval(found, "compliance")
     swing = single["compliance"] * COUPLED_TORQUE
-    free = 0.5 * single["play"] + single["dead_band"]
+    free, idle = 0.5 * single["play"] + single["dead_band"], 0.5 * single["dead_band"]
     least, largest = soft * COUPLED_TORQUE, stiff * COUPLED_TORQUE
-    yield Prediction(one.name, "coupled servos, released deviation", "deg", free, 0.0, most + band)
-    yield Prediction(
-        one.name, "coupled servos, loaded deviation", "deg", free + swing, least, most + band + largest
-    )
-    idle = 0.5 * single["dead_band"]
-    yield Prediction(one.name, "preloaded servos, released deviation", "deg", idle, 0.0, band)
-    yield Prediction(
-        one.name, "preloaded servos, loaded deviation", "deg", idle + swing, least, band + largest
-    )
+    alone = play.measured(one, play.SINGLE)
+    for pair, state, value, low, high in (
+        ("coupled", "released", free, 0.0, most + band),
+        ("coupled", "loaded", free + swing, least, most + band + largest),
+        ("preloaded", "released", idle, 0.0, band),
+        ("preloaded", "loaded", idle + swing, least, band + largest),
+    ):
+        error = number_in(one.inputs[f"{state}_error"].value, "deg")
+        null = alone[state], alone[state] - error, alone[state] + error
+        name = f"{pair} servos, {state} deviation"
+        reading = "range of the deviation over the alternations of the torque, as recomputed for one servo"
+        yield Prediction(one.name, name, "deg", value, low, high, *null, reading, error)
 
 
 def _rebounds(one: ValidationSet) -> Iterator[Prediction]:
-    """Rebound angle and spin with tangential compliance; intervals by inputs and the accepted restitution."""
+    """Rebound angle and spin with tangential compliance; intervals by inputs and the accepted restitution.
+
+    Null model: momentum and Coulomb's law.
+    """
     angles = [float(row["impact_angle_from_normal_deg"]) for row in one.rows("tangential_restitution.csv")]
-    result = varied(
+    impacts = varied(
         lambda given: np.array([_rebound(given, angle) for angle in angles]).ravel(), one.inputs.values()
     )
-    values, halves = (part.reshape(-1, 2) for part in (result.values, result.half_widths))
+    nulls = varied(
+        lambda given: np.array([_null_rebound(given, angle) for angle in angles]).ravel(),
+        [one.inputs[name] for name in ("friction", "restitution", "speed", "diameter")],
+    )
     given = {name: known.value for name, known in one.inputs.items()}
-    for angle, (out, spin), (of_out, of_spin) in zip(angles, values, halves, strict=True):
+    for k, angle in enumerate(angles):
         band = one.bands["sliding" if angle >= oblique.SLIDING else "compliant"].absolute
         assert band is not None
+        (out, spin), below, above = (x.reshape(-1, 2)[k] for x in (impacts.values, *impacts.sides))
         tangent = math.tan(math.radians(out)) + band * math.tan(math.radians(angle)) / given["restitution"]
-        of_out = math.hypot(of_out, math.degrees(math.atan(tangent)) - out)
         slide = given["speed"] * math.sin(math.radians(angle))
-        of_spin = math.hypot(of_spin, 2.5 * slide * band / (0.5 * given["diameter"]))
-        yield Prediction(one.name, f"rebound angle, {angle:.1f} deg", "deg", out, out - of_out, out + of_out)
-        yield Prediction(one.name, f"spin, {angle:.1f} deg", "rad/s", spin, spin - of_spin, spin + of_spin)
+        accepted = math.degrees(math.atan(tangent)) - out, 2.5 * slide * band / (0.5 * given["diameter"])
+        low, high = np.hypot(below, accepted), np.hypot(above, accepted)
+        readings = (
+            ("rebound angle", "deg", out, "from the normal, by the velocities of the centre", 1.0),
+            ("spin", "rad/s", spin, "by a mark on the sphere over the flight after the impact", 0.02 * spin),
+        )
+        for j, (name, unit, value, reading, half) in enumerate(readings):
+            interval = float(value), float(value - low[j]), float(value + high[j])
+            null = _interval(nulls, 2 * k + j)
+            yield Prediction(
+                one.name, f"{name}, {angle:.1f} deg", unit, *interval, *null, reading, float(half)
+            )
 
 
 def _rebound(given: Any, angle: float) -> tuple[float, float]:
@@ -148,13 +192,31 @@ def _rebound(given: Any, angle: float) -> tuple[float, float]:
     return math.degrees(after.angle(math.radians(angle))), after.spin
 
 
+def _null_rebound(given: Mapping[str, float], angle: float) -> tuple[float, float]:
+    """Return rebound angle [deg] and spin [rad/s] by momentum and Coulomb's law."""
+    kept, tangent = oblique.by_momentum(given, angle), math.tan(math.radians(angle))
+    slide = given["speed"] * math.sin(math.radians(angle))
+    spin = 2.5 * slide * (1.0 - kept) / (0.5 * given["diameter"])
+    return math.degrees(math.atan(kept * tangent / given["restitution"])), spin
+
+
 def _screws(one: ValidationSet) -> Iterator[Prediction]:
-    """Torque at start and stop: the fitted law at rest."""
+    """Torque at start and stop: the fitted law at rest; null model: Coulomb and viscous friction at rest."""
+    reading = (
+        "largest input torque of the start, or the last one before the stop, without the offset of the cell"
+    )
     for drive, name in (("1", "Stribeck"), ("2", "Stribeck"), ("3", "Stribeck by direction")):
-        given = screw.fitted(one, drive, name).named
-        law, _ = screw.LAWS[name]
+        spread = one.value(f"spread_{drive}") / 100.0
         for way, sign in (("forward", 1.0), ("backward", -1.0)):
-            torque = abs(float(law(given, np.array([sign * 1e-9]))[0]))
+            torque, plain = (_at_rest(one, drive, law, sign) for law in (name, "Coulomb + viscous"))
+            null = plain, plain * (1.0 - spread), plain * (1.0 + spread)
             for event, (low, high) in (("start", _START), ("stop", _STOP)):
                 quantity = f"drive {drive}, {event} torque {way}"
-                yield Prediction(one.name, quantity, "mN m", torque, low * torque, high * torque)
+                interval = torque, low * torque, high * torque
+                yield Prediction(one.name, quantity, "mN m", *interval, *null, reading, spread * torque)
+
+
+def _at_rest(one: ValidationSet, drive: str, name: str, sign: float) -> float:
+    """Return the torque of a fitted law at the least speed of a direction [mN m]."""
+    law, _ = screw.LAWS[name]
+    return abs(float(law(screw.fitted(one, drive, name).named, np.array([sign * 1e-9]))[0]))

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
-from tribodyn.validation.base import Band, Comparison, Outcome, Verdict
+from tribodyn.validation.base import Band, Comparison, Kind, Outcome, Sides, Verdict
 from tribodyn.validation.catalogue import ValidationSet
 
 _COLUMNS: Final = ("measured", "computed", "E", "null model")
@@ -23,12 +23,38 @@ class Judged:
 
     @property
     def counts(self) -> Counter[str]:
-        """Number of compared numbers by verdict."""
-        return Counter(row.verdict.value for row in self.outcome.comparisons)
+        """Number of compared numbers by verdict, those within by what the null model does."""
+        return Counter(_count_of(row) for row in self.outcome.comparisons)
 
     def explanation(self, row: Comparison) -> str:
-        """Return why a number misses its band; empty for any other verdict."""
-        return self.set.explanation(row.name) if row.verdict is Verdict.OUTSIDE else ""
+        """Return why a number misses its band or differs by more than its uncertainties; else empty."""
+        return self.set.explanation(row.name) if needs_explanation(row) else ""
+
+
+def needs_explanation(row: Comparison) -> bool:
+    """Return whether a number misses its band, or differs by more than its uncertainties (E > 1)."""
+    return row.verdict is Verdict.OUTSIDE or (row.error or 0.0) > 1.0
+
+
+_WITHIN: Final = {
+    False: "within the band, null model outside",
+    True: "within the band, as is the null model",
+    None: "within the band, no null model",
+}
+COUNTS: Final = (*_WITHIN.values(), Verdict.OUTSIDE.value, Verdict.REPORTED.value)
+"""Names of counts."""
+
+
+def _count_of(row: Comparison) -> str:
+    return _WITHIN[row.null_within] if row.verdict is Verdict.WITHIN else row.verdict.value
+
+
+def by_kind(all_judged: Iterable[Judged]) -> dict[Kind, Counter[str]]:
+    """Return the counts of each kind of check."""
+    found: dict[Kind, Counter[str]] = {kind: Counter() for kind in Kind if kind is not Kind.OWN}
+    for one in all_judged:
+        found.setdefault(one.set.kind, Counter()).update(one.counts)
+    return found
 
 
 def as_text(judged: Judged) -> str:
@@ -46,13 +72,11 @@ def as_text(judged: Judged) -> str:
 
 
 def summary(all_judged: Iterable[Judged]) -> str:
-    """Return the counts of all sets, one line each, and their sum."""
-    total: Counter[str] = Counter()
-    lines = []
-    for one in all_judged:
-        total += one.counts
-        lines.append(f"  {one.set.name:<24}{_counted(one.counts)}")
-    return "\n".join([*lines, f"  {'all sets':<24}{_counted(total)}"])
+    """Return the counts of all sets, then of each kind of check, one line each."""
+    known = list(all_judged)
+    lines = [f"  {one.set.name:<28}{_counted(one.counts)}" for one in known]
+    kinds = [f"  {kind.value:<28}{_counted(counts)}" for kind, counts in by_kind(known).items() if counts]
+    return "\n".join([*lines, "", *kinds])
 
 
 def as_json(judged: Judged) -> dict[str, Any]:
@@ -64,10 +88,11 @@ def as_json(judged: Judged) -> dict[str, Any]:
             "measured": row.measured,
             "u_measured": row.u_measured,
             "computed": _finite(row.computed),
-            "u_computed": _finite(row.u_computed),
+            "u_computed": [_finite(side) for side in row.sides],
             "range": None if row.spread is None else [_finite(end) for end in row.spread],
-            "E": row.error,
+            "E": None if row.error is None else _finite(row.error),
             "null": row.null,
+            "null_within": row.null_within,
             "band": None if row.band is None else row.band.name,
             "accepted": allowed(row.band, row.measured),
             "verdict": row.verdict.value,
@@ -77,23 +102,29 @@ def as_json(judged: Judged) -> dict[str, Any]:
         }
         for row in judged.outcome.comparisons
     ]
-    return {"set": judged.set.name, "title": judged.set.title, "counts": dict(judged.counts), "numbers": rows}
+    about = {"set": judged.set.name, "title": judged.set.title, "kind": judged.set.kind.value}
+    return {**about, "counts": dict(judged.counts), "numbers": rows}
 
 
 def as_page(judged: Judged) -> str:
     """Return the page of a set for the manual."""
     one = judged.set
-    parts = [f"# {one.title}", str(one.table["compared"]), f"**{_counted(judged.counts)}.**"]
+    counts = f"**Kind of check: {one.kind.value}. {_counted(judged.counts)}.**"
+    parts = [f"# {one.title}", str(one.table["compared"]), counts]
     if judged.outcome.plot is not None:
         parts.append(f"![Measured and computed values: {one.title}]({one.name}.png)")
     parts.append("## Measured and computed\n\n" + "\n".join(_table(judged.outcome.comparisons)))
     parts.append(
-        "Intervals are half widths; E is the difference over the root of the sum of their squares. "
+        "Intervals are half widths, of computed values below and above where they differ. E is the "
+        "difference over the root of the sum of squares of both, on the side of the measured value. "
         "The null model is a hand formula or an interpolation."
     )
     misses = [(row, text) for row in judged.outcome.comparisons if (text := judged.explanation(row))]
     if misses:
-        parts.append("## Misses\n\n" + "\n".join(f"- *{row.name}*: {text}" for row, text in misses))
+        parts.append(
+            "## Misses, and numbers with E > 1\n\n"
+            + "\n".join(f"- *{row.name}*: {text}" for row, text in misses)
+        )
     notes = [
         (row.name, text) for row in judged.outcome.comparisons for text in (row.not_judged, row.note) if text
     ]
@@ -108,21 +139,25 @@ def as_page(judged: Judged) -> str:
 
 
 def sets_table(all_judged: Iterable[Judged]) -> Iterator[str]:
-    """Give the table of all sets with their counts, links to their pages included."""
-    yield f"| set | measured | {' | '.join(verdict.value for verdict in Verdict)} |"
-    yield "|---|---|" + "---|" * len(Verdict)
-    total: Counter[str] = Counter()
-    for one in all_judged:
-        total += one.counts
-        counts = " | ".join(str(one.counts[verdict.value]) for verdict in Verdict)
-        yield f"| [`{one.set.name}`](sets/{one.set.name}.md) | {one.set.title} | {counts} |"
-    yield f"| all | | {' | '.join(str(total[verdict.value]) for verdict in Verdict)} |"
+    """Give the table of all sets with their counts by kind, links to their pages included."""
+    known = list(all_judged)
+    yield f"| kind of check, set | measured | {' | '.join(COUNTS)} |"
+    yield "|---|---|" + "---|" * len(COUNTS)
+    for kind, total in by_kind(known).items():
+        yield f"| **{kind.value}** | | {_row(total)} |"
+        for one in (one for one in known if one.set.kind is kind):
+            yield f"| [`{one.set.name}`](sets/{one.set.name}.md) | {one.set.title} | {_row(one.counts)} |"
+
+
+def _row(counts: Counter[str]) -> str:
+    return " | ".join(str(counts[name]) for name in COUNTS)
 
 
 def predictions_table(entries: Iterable[Mapping[str, Any]]) -> Iterator[str]:
     """Give the register of predictions as a table."""
-    yield "| set | quantity | value | interval | unit | entered | hash of inputs and data |"
-    yield "|---|---|---|---|---|---|---|"
+    columns = ("set", "quantity", "value", "interval", "null model", "unit", "refuted by", "entered", "hash")
+    yield f"| {' | '.join(columns)} |"
+    yield "|" + "---|" * len(columns)
     for entry in entries:
         low, high = number(entry["low"]), number(entry["high"])
         cells = (
@@ -130,9 +165,17 @@ def predictions_table(entries: Iterable[Mapping[str, Any]]) -> Iterator[str]:
             entry["name"],
             number(entry["value"]),
             f"{low} to {high}",
+            _null_of(entry),
             entry["unit"],
+            entry.get("refuted_by", ""),
         )
         yield f"| {' | '.join(cells)} | {entry['date']} | `{entry['hash'][:12]}` |"
+
+
+def _null_of(entry: Mapping[str, Any]) -> str:
+    if "null" not in entry:
+        return ""
+    return "{} ({} to {})".format(*(number(entry[key]) for key in ("null", "null_low", "null_high")))
 
 
 def allowed(band: Band | None, measured: float | None) -> str:
@@ -158,11 +201,14 @@ def number(value: float) -> str:
     return f"{value:.4g}"
 
 
-def with_width(value: float | None, half_width: float) -> str:
-    """Return a value with its half width; a dash where there is no value."""
+def with_width(value: float | None, sides: Sides) -> str:
+    """Return a value with the widths of its interval; a dash where there is no value."""
     if value is None:
         return "-"
-    return f"{number(value)} ± {half_width:.2g}" if half_width else number(value)
+    below, above = (f"{side:.2g}" for side in sides)
+    if below == above:
+        return f"{number(value)} ± {below}" if any(sides) else number(value)
+    return f"{number(value)} −{below} +{above}"
 
 
 def _named(row: Comparison) -> str:
@@ -170,14 +216,14 @@ def _named(row: Comparison) -> str:
 
 
 def _cells(row: Comparison) -> tuple[str, str, str, str]:
-    computed = with_width(row.computed, row.u_computed)
+    computed = with_width(row.computed, row.sides)
     error = "-" if row.error is None else f"{row.error:.2f}"
     null = "-" if row.null is None else number(row.null)
-    return with_width(row.measured, row.u_measured), computed, error, null
+    return with_width(row.measured, (row.u_measured, row.u_measured)), computed, error, null
 
 
 def _counted(counts: Counter[str]) -> str:
-    return ", ".join(f"{counts[verdict.value]} {verdict.value}" for verdict in Verdict)
+    return "; ".join(f"{counts[name]} {name}" for name in COUNTS if counts[name])
 
 
 def _finite(value: float) -> float | None:

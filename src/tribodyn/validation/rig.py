@@ -38,9 +38,10 @@ from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.simulation import simulate
 from tribodyn.studies.calibration import VariedKey
 from tribodyn.studies.measured import Measured, MeasuredCurve, MeasuredNumber, read
-from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
+from tribodyn.validation.base import Band, Comparison, Curve, Kind, Outcome, Plot, Sides
 from tribodyn.validation.catalogue import ValidationSet
 from tribodyn.validation.template import README
+from tribodyn.validation.vary import sides_of
 
 LARGEST: Final = 1_000_000
 NEEDED: Final = ("quantity", "measured", "half_width", "accepted")
@@ -91,16 +92,16 @@ class Rig(ValidationSet):
             values = data.computed(run)
         except InputError as error:
             raise InputError(error.reason, key="NAME") from None
-        half_widths = self._half_widths(data, values)
+        below, above = self._sides(data, values)
         rows, drawn = [], []
-        for row, (part, of_row), (_, half) in zip(
-            self.numbers, data.of_parts(values), data.of_parts(half_widths), strict=True
+        for row, (part, of_row), (_, low), (_, high) in zip(
+            self.numbers, *(data.of_parts(each) for each in (values, below, above)), strict=True
         ):
             if isinstance(part, MeasuredCurve):
-                rows.append(self._of_curve(row, part, of_row, half))
+                rows.append(self._of_curve(row, part, of_row, np.maximum(low, high)))
                 drawn.append((part, of_row))
             else:
-                rows.append(self._of_number(row, float(of_row[0]), float(half[0])))
+                rows.append(self._of_number(row, float(of_row[0]), (float(low[0]), float(high[0]))))
         return Outcome(tuple(rows), _plot(drawn) if drawn else None)
 
     def _part(self, row: Mapping[str, str], run: xr.Dataset) -> MeasuredCurve | MeasuredNumber:
@@ -120,14 +121,14 @@ class Rig(ValidationSet):
             )
         return parts[names.index(row["quantity"])]
 
-    def _of_number(self, row: Mapping[str, str], value: float, half_width: float) -> Comparison:
+    def _of_number(self, row: Mapping[str, str], value: float, sides: Sides) -> Comparison:
         known = key_results_of_case(self.case)
         return Comparison(
             row["quantity"],
             known[row["quantity"]].unit if row["quantity"] in known else "",
             computed=value,
             measured=_number(row, "measured"),
-            u_computed=half_width,
+            u_computed=sides,
             u_measured=_number(row, "half_width"),
             null=_number(row, "null") if row.get("null") else None,
             band=self.bands.get(row["quantity"]),
@@ -151,13 +152,16 @@ class Rig(ValidationSet):
             note=row.get("source", ""),
         )
 
-    def _half_widths(self, data: Measured, values: FloatArray) -> FloatArray:
-        """Return half widths of computed values by tolerance and assumed inputs, shape (n,)."""
-        changes = []
-        for variants in self._variants():
-            found = np.array([data.computed(simulate(self.case.replace(change))) for change in variants])
-            changes.append(np.abs(found - values).max(axis=0))
-        return np.asarray(np.sqrt(np.sum(np.square(changes), axis=0)))
+    def _sides(self, data: Measured, values: FloatArray) -> FloatArray:
+        """Return widths below and above computed values by tolerance and assumed inputs, shape (2, n).
+
+        The change by the tolerance, whose sign is accidental, counts on both sides.
+        """
+        tolerance, *assumed = (
+            np.array([data.computed(simulate(self.case.replace(change))) for change in variants])
+            for variants in self._variants()
+        )
+        return sides_of(values, [np.vstack([tolerance, 2.0 * values - tolerance]), *assumed])
 
     def _variants(self) -> Iterator[list[dict[str, object]]]:
         """Yield changes of the case: the tolerance, then both ends of each assumed input."""
@@ -194,6 +198,7 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
                 key="NAME",
             )
     table = {
+        "kind": Kind.OWN,
         "title": f"{Path(path).name} against {case.title or case.kind()}",
         "compared": f"Numbers of {Path(path).name} (SHA-256 `{digest}`) against key results of the case.",
         "bands": bands,

@@ -6,9 +6,9 @@ from functools import cache
 
 import pytest
 
-from tribodyn.validation.base import Verdict
+from tribodyn.validation.base import Kind, Verdict
 from tribodyn.validation.catalogue import NAMES, load
-from tribodyn.validation.report import Judged, as_json, as_page, as_text
+from tribodyn.validation.report import Judged, as_json, as_page, as_text, by_kind, sets_table, summary
 
 LEAST_JUDGED = 40
 
@@ -20,10 +20,44 @@ def _judged(name: str) -> Judged:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_miss_is_explained_and_nothing_else(name: str) -> None:
+def test_every_miss_and_every_large_e_is_explained_and_nothing_else(name: str) -> None:
     judged = _judged(name)
-    missed = {row.name for row in judged.outcome.comparisons if row.verdict is Verdict.OUTSIDE}
-    assert missed == set(judged.set.table.get("explanations", {}))
+    needed = {
+        row.name
+        for row in judged.outcome.comparisons
+        if row.verdict is Verdict.OUTSIDE or (row.error is not None and row.error > 1.0)
+    }
+    assert needed == set(judged.set.table.get("explanations", {}))
+    text, page = as_text(judged), as_page(judged)
+    for row in needed:
+        assert judged.set.explanation(row) in text
+        assert judged.set.explanation(row) in page
+
+
+def test_assumed_inputs_of_the_bearing_only_lower_its_peak() -> None:
+    rows = _judged("journal_peak_pressure").outcome.comparisons
+    for row in rows:
+        below, above = row.sides
+        assert below > 20.0
+        assert above < 1.0
+        assert f"−{below:.2g} +{above:.2g}" in as_text(_judged("journal_peak_pressure"))
+
+
+def test_numbers_are_counted_by_kind_and_by_what_the_null_model_does() -> None:
+    judged = [_judged(name) for name in NAMES]
+    counts = by_kind(judged)
+    assert set(counts) == {Kind.PREDICTED, Kind.TABLES, Kind.FITS, Kind.CONSISTENCY}
+    assert all(sum(counts[kind].values()) for kind in counts if kind is not Kind.PREDICTED)
+    rows = [row for one in judged for row in one.outcome.comparisons]
+    assert sum(sum(each.values()) for each in counts.values()) == len(rows)
+    within = [row for row in rows if row.verdict is Verdict.WITHIN]
+    for answer, name in ((True, "as is the null"), (False, "null model outside"), (None, "no null")):
+        expected = sum(row.null_within is answer for row in within)
+        assert sum(n for each in counts.values() for label, n in each.items() if name in label) == expected
+    # No line of the text and no row of the table holds the sum of all kinds.
+    total = str(len(within))
+    assert total not in summary(judged).split()
+    assert f"| {total} |" not in "\n".join(sets_table(judged))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -43,7 +43,7 @@ def compare(one: ValidationSet) -> Outcome:
                 "kPa",
                 computed=float(result.values[k]),
                 measured=float(row["peak_pressure_measured_kPa"]),
-                u_computed=float(result.half_widths[k]),
+                u_computed=result.sides_at(k),
                 u_measured=gauge,
                 null=float(row[_NULL]),
                 band=one.bands["peak_pressure"] if judged else None,

@@ -40,7 +40,7 @@ def compare(one: ValidationSet) -> Outcome:
             units[k],
             computed=float(result.values[k]),
             measured=measured[k][0],
-            u_computed=float(result.half_widths[k]),
+            u_computed=result.sides_at(k),
             u_measured=measured[k][1],
             null=nulls[k],
             band=bands[k],

@@ -40,7 +40,7 @@ def compare(one: ValidationSet) -> Outcome:
                     "",
                     computed=float(result.values[k]),
                     measured=measured[k],
-                    u_computed=float(result.half_widths[k]),
+                    u_computed=result.sides_at(k),
                     u_measured=one.value("reading"),
                     null=null_model(one, angle),
                     band=_band(one, law, angle),
@@ -75,7 +75,12 @@ def restitutions(angles: list[float], law: TangentialLaw, given: Mapping[str, fl
 
 def null_model(one: ValidationSet, angle: float) -> float:
     """Return the restitution by momentum and Coulomb's law [1] at an angle of incidence [deg]."""
-    lost = one.value("friction") * (1.0 + one.value("restitution")) / math.tan(math.radians(angle))
+    return by_momentum({name: given.value for name, given in one.inputs.items()}, angle)
+
+
+def by_momentum(given: Mapping[str, float], angle: float) -> float:
+    """Return the restitution by momentum and Coulomb's law [1] for inputs; see :func:`null_model`."""
+    lost = given["friction"] * (1.0 + given["restitution"]) / math.tan(math.radians(angle))
     return max(1.0 - lost, 5.0 / 7.0) if angle < SLIDING else 1.0 - lost
 
 

@@ -40,7 +40,7 @@ def compare(one: ValidationSet) -> Outcome:
             f"torque / (mu W R), {label} clearance",
             "",
             float(ratios.values[k]),
-            u_computed=float(ratios.half_widths[k]),
+            u_computed=ratios.sides_at(k),
             null=null,
             band=one.bands["ratio"],
             spread=(float(low[k]), float(high[k])),
