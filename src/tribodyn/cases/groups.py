@@ -154,17 +154,17 @@ class AsperityKeys(Group):
 class _ContactOfAnyLaw(Group):
     """Keys of contact that all laws share."""
 
-    law: str = choice("rsdc", "contact law", "paper, section 2", family="tribodyn.contact:LAWS")
+    law: str = choice("rsdc", "contact law", "paper, section 2.1", family="tribodyn.contact:LAWS")
     damping_factor: str = choice(
         "lankarani-nikravesh",
         "how damping follows from restitution; by default none for a law that has no restitution",
-        "paper, Eq. 9",
+        "paper, Eq. 5",
         family="tribodyn.contact:DAMPING_FACTORS",
     )
     restitution: float | None = number(
         None,
         "restitution meant; rsdc has its own without it",
-        "paper, Eq. 8",
+        "paper, Eq. 9",
         gt=0,
         le=1,
         example="0.7",
@@ -185,7 +185,7 @@ class _ContactOfAnyLaw(Group):
     separation_from: str = choice(
         "asperities",
         "mean plane from which asperity laws count separations",
-        "paper, section 2",
+        "paper, section 2.1",
         family="tribodyn.contact:SEPARATIONS",
     )
     onset_separation: float = number(

@@ -120,7 +120,7 @@ class FormKeys(Group):
 class PlainJoint(Group):
     """The clearance joint: a shaft in a bushing."""
 
-    clearance: float = quantity("20 um", "radial clearance c", "paper, section 5.2", gt=0)
+    clearance: float = quantity("20 um", "radial clearance c", "paper, sections 4.1 and 5.2", gt=0)
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
     length: float = quantity("20 mm", "length of the bushing l_z", TABLE_1, gt=0)
     contact: str = choice(

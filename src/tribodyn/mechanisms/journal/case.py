@@ -18,7 +18,7 @@ from tribodyn.cases.loads import ShaftLoad
 from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.signals import SpeedTable
 
-SECTION_4 = "paper, section 4"
+SECTION_4 = "paper, section 4.1"
 _FRICTION = "joint.friction_coefficient"
 _LUBRICATED: dict[str, Value] = {
     "title": "Journal bearing, rough contact in oil",
@@ -32,7 +32,7 @@ class JournalJoint(PlainJoint):
     """The clearance joint: a journal in a bushing."""
 
     friction_coefficient: float = number(
-        0.0, "coefficient of friction mu_f; the paper's section 4 has no friction", SECTION_4, ge=0, le=2
+        0.0, "coefficient of friction mu_f; the paper's section 4 names none", ASSUMED, ge=0, le=2
     )
     friction: Literal["traction"] = choice("traction", "traction along the actual slip", ASSUMED)
 
@@ -62,8 +62,8 @@ class JournalLoadKeys(Group):
 
     force_x: float = quantity("200 N", "load W_x", SECTION_4)
     force_y: float = quantity("100 N", "load W_y", SECTION_4)
-    moment_x: float = quantity("0 N m", "moment about X, right-handed; used with tilt", SECTION_4)
-    moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", SECTION_4)
+    moment_x: float = quantity("0 N m", "moment about X, right-handed; used with tilt", ASSUMED)
+    moment_y: float = quantity("0 N m", "moment about Y, left-handed; used with tilt", ASSUMED)
     more: Mapping[str, JournalLoad] = tables("loads from tables, beside these")
 
 
@@ -130,10 +130,10 @@ class JournalRunKeys(Group):
 
     duration: float = quantity("10 ms", "simulated time", "depends on film.lubricated", gt=0)
     start: Literal["offset", "equilibrium"] = choice(
-        "offset", "start at rest at start_x, start_y, or in static equilibrium", SECTION_4
+        "offset", "start at rest at start_x, start_y, or in static equilibrium", ASSUMED
     )
-    start_x: float = quantity("0 um", "e_x at the start", SECTION_4)
-    start_y: float = quantity("0 um", "e_y at the start", SECTION_4)
+    start_x: float = quantity("0 um", "e_x at the start", ASSUMED)
+    start_y: float = quantity("0 um", "e_y at the start", ASSUMED)
     output_interval: float = quantity("5 us", "time between rows", "depends on film.lubricated", gt=0)
 
 

@@ -73,7 +73,7 @@ class MechanismKeys(Group):
     drag_link_mass: float = quantity("0.1232 kg", "mass of the drag link m_2", TABLE_2, gt=0)
     ring_mass: float = quantity("0.6744 kg", "mass of the unison ring m_3", TABLE_2, gt=0)
     vane_mass: float = quantity(
-        "0.253 kg", "mass of the vane with lever and trunnion m_v", "paper, section 4", gt=0
+        "0.253 kg", "mass of the vane with lever and trunnion m_v", "paper, Table 1 and section 4.1", gt=0
     )
     crank_inertia: float = quantity(
         "6.22e-4 kg m^2", "crank, about its end J_1; m l^2/3 where mass or length is given", TABLE_2, gt=0
@@ -147,7 +147,7 @@ class VsvRunKeys(Group):
     """How long, from where, and what is kept."""
 
     cycles: float | None = number(
-        None, "drive cycles to simulate; give this or duration", ASSUMED, gt=0, le=10000, example="2"
+        None, "drive cycles to simulate; give this or duration", "paper, section 5.2", gt=0, le=10000, example="2"
     )
     duration: float | None = quantity(
         None, "simulated time; give this or cycles", ASSUMED, gt=0, example="3 s"
