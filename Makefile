@@ -15,16 +15,18 @@ PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -n 3 --dist worksteal
 NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:
-.PHONY: help demo assumptions ready kernels test test-long golden lint format docs bench lock clean
+.PHONY: help demo assumptions ready kernels test check test-long golden lint format pages docs bench lock clean
 
 help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
+	@echo "make check       what takes longer: the paper in full, the manual, validation, the wheel, a seventh of the longest"
 	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
 	@echo "make golden      store key results and messages anew"
 	@echo "make lint        style, types, layers and spelling"
 	@echo "make format      apply the style"
+	@echo "make pages       write tables and measured numbers into the pages of the manual"
 	@echo "make docs        build the manual into $(DOCS)"
 	@echo "make bench       speed against other programs (some twenty minutes)"
 	@echo "make lock        pin all dependencies anew, with hashes (needs uv)"
@@ -41,6 +43,15 @@ assumptions: demo
 
 test: ready
 	$(PYTEST) -m "not long"
+
+# What is promised and takes longer than tests may. A week of days runs all tests marked long: a seventh each day.
+SEVENTH := $(shell expr $$(date +%s) / 86400 % 7)
+check: ready $(VENV)/.docs
+	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
+	$(BIN)/tribodyn validate -o out/validation --quiet
+	$(MAKE) docs
+	tools/try-wheel $(BIN)/python
+	$(PYTEST) -m long --part $(SEVENTH)/7
 
 # Numerical tests must not depend on rounding: ten relative tolerances 1e-9 apart take other roundings each.
 test-long: ready
@@ -65,8 +76,13 @@ format: $(VENV)/.dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
+NUMBERS := docs/_static/generated/numbers.json
+pages: $(VENV)/.docs docs/_build/drawn/measured
+	$(BIN)/python docs/fill.py --numbers $(NUMBERS)
+
 docs: $(VENV)/.docs
 	$(MAKE) --jobs 2 $(DRAWN) docs/_build/unread
+	$(BIN)/python docs/fill.py --check --numbers $(NUMBERS)
 	$(BIN)/sphinx-build -W --keep-going -j 2 -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 

@@ -26,16 +26,8 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx_design",
     "numpydoc",
-    "case_keys",
-    "contact_laws",
-    "materials",
-    "benchmark_tables",
-    "cost_tables",
-    "counted_tables",
     "mathml",
-    "numbers_of_runs",
     "reference",
-    "solver_tables",
     "validation_pages",
 ]
 exclude_patterns = ["_build"]

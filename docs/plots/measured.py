@@ -1,4 +1,4 @@
-"""Measure the numbers on pages of the manual, for the role ``number``.
+"""Measure the numbers on pages of the manual, which ``docs/fill.py`` writes into them.
 
 python docs/plots/measured.py OUTPUT_DIRECTORY
 """

@@ -18,7 +18,6 @@ from pages import DOCS, ROOT, name, numbers, pages, prose
 
 sys.path.pop(0)
 
-ROLE = re.compile(r"\{number\}`([^`]+)`")
 LIST = Path(__file__).parent / "numbers_by_hand.toml"
 LISTED: dict[str, dict[str, list[str]]] = tomllib.loads(LIST.read_text(encoding="utf-8"))
 KINDS = {"given", "published", "derived", "prototype"}
@@ -38,7 +37,9 @@ def measured() -> ModuleType:
 
 
 def test_pages_and_measurements_name_the_same_numbers(measured: ModuleType) -> None:
-    used = {number for page in pages() for number in ROLE.findall(page.read_text(encoding="utf-8"))}
+    used = {
+        number for page in pages() for number in re.findall(r"<!--= ([^>]+?) -->", page.read_text("utf-8"))
+    }
     assert used == set(measured.NUMBERS)
 
 

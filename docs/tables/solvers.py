@@ -1,4 +1,4 @@
-"""Tables of the directive ``benchmark`` that compare the MEBDF with other stiff solvers.
+"""Tables that compare the MEBDF with other stiff solvers.
 
 They show what ``python -m benchmarks``, ``benchmarks.work_precision`` and ``benchmarks.dae_peers`` found.
 """
@@ -8,7 +8,9 @@ from __future__ import annotations
 from typing import Any, Final
 
 import numpy as np
-from benchmark_tables import SOURCE, STATIC, TABLES, Found, Lines, head, row
+
+from tables.benchmarks import SOURCE
+from tables.markdown import STATIC, Found, Lines, head, row, stored
 
 WORK: Final = STATIC / "mebdf_work_precision.json"
 ALGEBRAIC: Final = STATIC / "dae_work_precision.json"
@@ -65,9 +67,10 @@ def ida(found: Found) -> Lines:
         yield row(problem, *cells, *(f"{value:.1f}" for value in most))
 
 
-def setup(app: Any) -> dict[str, bool]:
-    """Register the tables."""
-    TABLES.update(
-        {"work": (WORK, work), "digits": (WORK, digits), "cash": (SOURCE, cash), "ida": (ALGEBRAIC, ida)}
-    )
-    return {"parallel_read_safe": True}
+TABLES: Final = {
+    "work": stored(WORK, work),
+    "digits": stored(WORK, digits),
+    "cash": stored(SOURCE, cash),
+    "ida": stored(ALGEBRAIC, ida),
+}
+"""Tables by name."""

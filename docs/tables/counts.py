@@ -1,10 +1,11 @@
-"""Tables of the directive ``benchmark`` that hold counts instead of times."""
+"""Tables of counts from the stored benchmarks."""
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
-from benchmark_tables import SOURCE, TABLES, Found, Lines, head, row
+from tables.benchmarks import SOURCE
+from tables.markdown import Found, Lines, head, row, stored
 
 VARIANTS: Final = {
     "as it is": "default",
@@ -81,7 +82,9 @@ def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
     return ", ".join(f"{scale * values[name]:.1g} {unit}" for name in ("median", "99 %", "largest"))
 
 
-def setup(app: Any) -> dict[str, bool]:
-    """Register the tables."""
-    TABLES.update({"kinks": (SOURCE, kinks), "random": (SOURCE, machines), "statics": (SOURCE, statics)})
-    return {"parallel_read_safe": True}
+TABLES: Final = {
+    "kinks": stored(SOURCE, kinks),
+    "random": stored(SOURCE, machines),
+    "statics": stored(SOURCE, statics),
+}
+"""Tables by name."""

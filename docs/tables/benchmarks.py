@@ -1,21 +1,11 @@
-"""Directive ``benchmark``: what ``python -m benchmarks`` found, as tables.
-
-Argument: the name of a table. The numbers are those stored in ``docs/_static``, so that measuring again
-changes the page.
-"""
+"""Tables of times: what ``python -m benchmarks`` found, as it is stored in ``docs/_static``."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
-from docutils import nodes
-from docutils.parsers.rst import Directive
-from docutils.statemachine import StringList
+from tables.markdown import STATIC, Found, Lines, head, row, seconds, stored
 
-STATIC: Final = Path(__file__).parents[1] / "_static"
 SOURCE: Final = STATIC / "benchmarks.json"
 KERNEL_GRID: Final = "256 × 32"
 
@@ -28,29 +18,10 @@ AIMS: Final = (
 )
 """Name of a peer, what is aimed at, and the least ratio of times."""
 
-Found = dict[str, Any]
-Lines = Iterator[str]
-
-
-def head(*cells: str) -> Lines:
-    """Give the first two lines of a table."""
-    yield f"| {' | '.join(cells)} |"
-    yield "|---" * len(cells) + "|"
-
-
-def row(*cells: str) -> str:
-    """Return a line of a table."""
-    return f"| {' | '.join(cells)} |"
-
 
 def verdict(text: str, kept: bool) -> str:
     """Return a number, marked where it misses its goal."""
     return text if kept else f"**{text}**"
-
-
-def seconds(time: float) -> str:
-    """Return a time with two digits, as a person writes it."""
-    return f"{time:.0f} s" if time >= 10.0 else f"{time:.2g} s"
 
 
 def goals(found: Found) -> Lines:
@@ -250,40 +221,21 @@ def machines(found: Found) -> Lines:
         yield row(f"`{name}`", value["on"], f"{value['load']:.1f}")
 
 
-TABLES: Final[dict[str, tuple[Path, Callable[[Found], Lines]]]] = {
-    "goals": (SOURCE, goals),
-    "kernel": (SOURCE, kernel),
-    "integrators": (SOURCE, integrators),
-    "peers": (SOURCE, peers),
-    "tolerances": (SOURCE, tolerances),
-    "mechanism": (SOURCE, mechanism),
-    "equal_errors": (SOURCE, equal_errors),
-    "film": (SOURCE, film),
-    "growth": (SOURCE, growth),
-    "command": (SOURCE, command),
-    "sweep": (SOURCE, sweep),
-    "machines": (SOURCE, machines),
+TABLES: Final = {
+    table.__name__: stored(SOURCE, table)
+    for table in (
+        goals,
+        kernel,
+        integrators,
+        peers,
+        tolerances,
+        mechanism,
+        equal_errors,
+        film,
+        growth,
+        command,
+        sweep,
+        machines,
+    )
 }
-"""Tables by name: where their numbers stand, and their lines."""
-
-
-class Benchmark(Directive):
-    """One table."""
-
-    required_arguments = 1
-
-    def run(self) -> list[nodes.Node]:
-        """Return the table."""
-        source, table = TABLES[self.arguments[0]]
-        self.state.document.settings.record_dependencies.add(str(source))
-        found = json.loads(source.read_text(encoding="utf-8"))
-        container = nodes.container()
-        text = StringList(list(table(found)), source=str(source))
-        self.state.nested_parse(text, self.content_offset, container)
-        return container.children
-
-
-def setup(app: Any) -> dict[str, bool]:
-    """Register the directive."""
-    app.add_directive("benchmark", Benchmark)
-    return {"parallel_read_safe": True}
+"""Tables by name."""

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
-from benchmark_tables import SOURCE, TABLES, Found, Lines, head, row, seconds
-
+from tables.benchmarks import SOURCE
+from tables.markdown import Found, Lines, Table, head, row, seconds, stored
 from tribodyn.simulation.costs import COEFFICIENTS
 
 MB: Final = 1e6
 
 
-def coefficients(_: Found) -> Lines:
+def coefficients() -> Lines:
     """Give the coefficients of the estimate."""
     yield from head("symbol", "value", "of each")
     for symbol, one in COEFFICIENTS.items():
@@ -32,7 +32,5 @@ def costs(found: Found) -> Lines:
         yield row(f"`{name}`", f"{one['cycles']:g}", *counts, *memory, *times)
 
 
-def setup(app: Any) -> dict[str, bool]:
-    """Register the tables."""
-    TABLES.update({"coefficients": (SOURCE, coefficients), "costs": (SOURCE, costs)})
-    return {"parallel_read_safe": True}
+TABLES: Final[dict[str, Table]] = {"coefficients": coefficients, "costs": stored(SOURCE, costs)}
+"""Tables by name."""
