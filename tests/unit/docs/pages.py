@@ -21,7 +21,7 @@ REMOVED: Final = (
     re.compile(r"\$[^$]*\$"),
     re.compile(r"(?<=\])\([^)]*\)"),
 )
-"""Tables and numbers that ``docs/fill.py`` writes, front matter, fences, indented code, formulas, roles, inline code and targets of links."""
+"""Tables and numbers that ``docs/fill.py`` writes, front matter, fences, code, formulas, roles, links."""
 UNITS: Final = (
     "%|°|µm/s|mm/s|m/s²|m/s|rad/s|MPa/µm|MPa|GPa|kPa|Pa s|Pa|µm|nm|mm³|mm|m²/N|m|kN|mN|N mm|N m|N|µs|ms|s/m|s"
     "|mJ|J|Hz|kHz|mrad|rad|K|g|kg|kg m²|σ|MB|cycles|steps|times|revolutions"

@@ -60,10 +60,10 @@ def test_no_page_needs_the_build_to_be_read(fill: ModuleType) -> None:
 
 
 def test_a_page_is_filled(fill: ModuleType) -> None:
-    page = "x <!--= force [N] -->18.4<!--/--> N\n<!-- table: joints -->\nold\n<!-- end -->\n"
+    page = "x <!--= force [N] -->18.4<!--/--> N\n<!-- table: joints -->\nwritten by hand\n<!-- end -->\n"
     new = fill.filled(page, {"force [N]": "18.6"})
     assert "<!--= force [N] -->18.6<!--/-->" in new
-    assert "old" not in new
+    assert "written by hand" not in new
     assert re.search(r"^\| `revolute` \|", new, re.MULTILINE)
     assert fill.filled(new, {"force [N]": "18.6"}) == new
 

@@ -37,9 +37,8 @@ def measured() -> ModuleType:
 
 
 def test_pages_and_measurements_name_the_same_numbers(measured: ModuleType) -> None:
-    used = {
-        number for page in pages() for number in re.findall(r"<!--= ([^>]+?) -->", page.read_text("utf-8"))
-    }
+    texts = (page.read_text(encoding="utf-8") for page in pages())
+    used = {number for text in texts for number in re.findall(r"<!--= ([^>]+?) -->", text)}
     assert used == set(measured.NUMBERS)
 
 
