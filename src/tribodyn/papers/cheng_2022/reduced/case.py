@@ -147,12 +147,7 @@ class VsvRunKeys(Group):
     """How long, from where, and what is kept."""
 
     cycles: float | None = number(
-        None,
-        "drive cycles to simulate; give this or duration",
-        "paper, section 5.2",
-        gt=0,
-        le=10000,
-        example="2",
+        None, "drive cycles; give this or duration", "paper, section 5.2", gt=0, le=10000, example="2"
     )
     duration: float | None = quantity(
         None, "simulated time; give this or cycles", ASSUMED, gt=0, example="3 s"
