@@ -6,15 +6,12 @@ Scans (:mod:`tribodyn.surfaces.text`) are read block by block and may be large; 
 
 from __future__ import annotations
 
-import re
 from typing import Final
 
 SEPARATORS: Final = (";", "\t", ",")
 """What may stand between the fields of a line; the first one that is found does."""
 _COMMENTS: Final = ("#", "%", "//")
 """How a line begins that is a comment."""
-_COLUMN: Final = re.compile(r"\"?([^\[\]\"]*?)\s*(?:\[([^\]]+)\]|\(([^()]+)\))?\s*\"?")
-"""Name of a column, with its unit in brackets."""
 
 
 def is_comment(text: str) -> bool:
@@ -40,8 +37,14 @@ def named(cell: str) -> tuple[str, str | None] | None:
     >>> named('"Position (mm)"'), named("torque (net) [N m]"), named("x")
     (('Position', 'mm'), ('torque (net)', 'N m'), ('x', None))
     """
-    match = _COLUMN.fullmatch(cell.strip())
-    if match is None:
+    # Not by a regular expression: one that leaves blanks to three parts tries all divisions among them.
+    text = cell.strip().removeprefix('"').removesuffix('"').rstrip()
+    name, unit = text, None
+    if text.endswith("]"):
+        name, _, unit = text[:-1].partition("[")
+    elif text.endswith(")"):
+        before, opened, inside = text[:-1].rpartition("(")
+        name, unit = (before, inside) if opened and inside and ")" not in inside else (text, None)
+    if unit == "" or any(mark in name for mark in '[]"') or (text.endswith("]") and "]" in text[:-1]):
         return None
-    unit = match[2] or match[3]
-    return match[1].strip(), None if unit is None else unit.strip()
+    return name.strip(), None if unit is None else unit.strip()

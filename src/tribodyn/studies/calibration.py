@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -24,6 +25,7 @@ from tribodyn.cases.keys import Key
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
+from tribodyn.results.atomic import write_bytes, write_text
 from tribodyn.simulation import simulate
 from tribodyn.studies.least_squares import (
     CONFIDENCE,
@@ -250,24 +252,32 @@ class Calibration:
         if self.directory is None:
             return
         path = self.directory / EVALUATIONS
-        new = not path.exists()
+        if not path.exists():
+            write_text(path, json.dumps({"fingerprint": self.fingerprint}) + "\n")
+        computed = [value if math.isfinite(value) else None for value in self.known[name]]
         with path.open("a", encoding="utf-8") as file:
-            if new:
-                file.write(json.dumps({"fingerprint": self.fingerprint}) + "\n")
-            file.write(json.dumps({"values": json.loads(name), "computed": self.known[name]}) + "\n")
+            file.write(json.dumps({"values": json.loads(name), "computed": computed}) + "\n")
 
     def _read(self, path: Path) -> None:
-        lines = path.read_text(encoding="utf-8").splitlines()
-        try:
-            if json.loads(lines[0])["fingerprint"] != self.fingerprint:
+        """Read the evaluations of an earlier fit; a last line that is half written is left out."""
+        lines = path.read_bytes().split(b"\n")
+        if lines.pop():
+            write_bytes(path, b"".join(line + b"\n" for line in lines))
+        first = _object(lines[0]) if lines else {}
+        if first.get("fingerprint") != self.fingerprint:
+            what = "belongs to another fit" if "fingerprint" in first else "does not name its fit"
+            raise InputError(f"{path} {what}; choose another folder or remove the file", key="--output")
+        for number, line in enumerate(lines[1:], 2):
+            entry = _object(line)
+            values = _finite(entry.get("values"), len(self.keys))
+            computed = _finite(entry.get("computed"), self.values.size, failed=True)
+            if values is None or computed is None:
                 raise InputError(
-                    f"{path} belongs to another fit; choose another folder or remove the file", key="--output"
+                    f"line {number} of {path} is no evaluation of this fit; choose another folder or "
+                    "remove the file",
+                    key="--output",
                 )
-            entries = [json.loads(line) for line in lines[1:]]
-        except (ValueError, KeyError, IndexError):
-            # The last line may be half written; an evaluation is computed again then.
-            entries = [_entry(line) for line in lines[1:]]
-        self.known |= {json.dumps(entry["values"]): entry["computed"] for entry in entries if entry}
+            self.known[json.dumps(values)] = computed
 
 
 def _cost(found: LeastSquares) -> float:
@@ -300,9 +310,27 @@ def _crossing(rise: Callable[[float], float], allowed: float, best: float, step:
     return max(place, end) if step < 0.0 else min(place, end)
 
 
-def _entry(line: str) -> dict[str, list[float]]:
+def _object(line: bytes) -> dict[str, object]:
+    """Return the object that a line holds; empty where it holds none."""
     try:
         found = json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
-    return found if isinstance(found, dict) and {"values", "computed"} <= found.keys() else {}
+    return found if isinstance(found, dict) else {}
+
+
+def _finite(found: object, length: int, *, failed: bool = False) -> list[float] | None:
+    """Return a list of so many finite numbers, None for anything else.
+
+    With ``failed`` null stands for a value of a run that failed, and becomes NaN.
+    """
+    if not isinstance(found, list) or len(found) != length:
+        return None
+    if not all(_is_finite(one) or (failed and one is None) for one in found):
+        return None
+    return [math.nan if one is None else float(one) for one in found]
+
+
+def _is_finite(one: object) -> bool:
+    """Return whether a value is a number that a float holds; JSON has integers of any length."""
+    return type(one) in (int, float) and abs(one) <= sys.float_info.max  # type: ignore[arg-type]

@@ -21,6 +21,10 @@ WIDE: Final = 0.5
 _TIMES: Final = 50
 _NOISE: Final = 0.01
 """Noise assumed of a further measurement, over its range."""
+_ROUNDING: Final = 1e-6
+"""Range of a component, over that of all components of its variable, up to which it is taken for rounding."""
+_NOTHING: Final = 1e-15
+"""Range of any variable up to which it is taken for zero [SI]."""
 
 
 def statements(calibration: Calibration, found: LeastSquares) -> list[str]:
@@ -84,9 +88,11 @@ def _gains(middle: xr.Dataset, moved: Sequence[xr.Dataset]) -> Iterator[tuple[st
         base, *others = (
             np.interp(times, run["time"].values, variable(run, name)) for run in (middle, *moved)
         )
-        size = float(np.ptp(base))
-        gain = (np.array(others) - base).T / (STEP * _NOISE * size) if size > 0.0 else np.empty((0, 0))
-        if gain.size and np.isfinite(gain).all():
+        size, whole = float(np.ptp(base)), middle[name.partition(".")[0]].values
+        if size <= max(_ROUNDING * float(np.ptp(whole)), _NOTHING):
+            continue
+        gain = (np.array(others) - base).T / (STEP * _NOISE * size)
+        if np.isfinite(gain).all():
             yield name, gain
 
 

@@ -38,6 +38,8 @@ from tribodyn.views.events import impact_windows
 OPTION: Final = "--data"
 LARGEST: Final = 20_000_000
 QUANTITY: Final = "quantity"
+_PLAIN: Final = {"1": 1.0, "-": 1.0, "%": 0.01}
+"""Units of plain numbers."""
 _POWER: Final = re.compile(r"([A-Za-z]+)-([0-9])")
 
 
@@ -207,7 +209,10 @@ def read(path: str | Path, run: xr.Dataset) -> Measured:
     if len(lines) < 2:
         raise InputError(f"{as_given(str(path))} needs a header and a row of numbers", key=OPTION)
     separator = separator_of(lines[0])
-    rows = list(csv.reader((with_points(line, separator) for line in lines), delimiter=separator))
+    try:
+        rows = list(csv.reader((with_points(line, separator) for line in lines), delimiter=separator))
+    except csv.Error as error:
+        raise InputError(f"{as_given(str(path))} is no table of numbers: {error}", key=OPTION) from None
     header, rows = [cell.strip() for cell in rows[0]], rows[1:]
     parts = _numbers(header, rows) if header[0] == QUANTITY else _curves(header, rows, run)
     for part in parts:
@@ -227,7 +232,6 @@ def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Datase
         raise InputError("the times must rise from row to row", key=OPTION)
     curves = []
     for k, (name, unit) in enumerate(columns[1:], 1):
-        variable(run, name)
         like = _unit_of(run, name)
         values, (zero, one) = _column(rows, k, unit, like), _zero_and_one(k, unit, like)
         curves.append(MeasuredCurve(name, unit, one - zero, times, values))
@@ -246,6 +250,9 @@ def _numbers(header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Measu
     if "value" not in header:
         raise InputError(f"a table of numbers needs the columns {QUANTITY}, value", key=OPTION)
     tables = [dict(zip(header, (cell.strip() for cell in row), strict=False)) for row in rows]
+    for number, row in enumerate(tables, 1):
+        if "value" not in row:
+            raise InputError(f"row {number} has no value: {as_given(row[QUANTITY])}", key=OPTION)
     return [
         MeasuredNumber(row[QUANTITY], _float(row["value"]), _float(row.get("half_width") or "nan"))
         for row in tables
@@ -264,7 +271,12 @@ def _column(rows: Sequence[Sequence[str]], k: int, unit: str, like: str) -> Floa
 def _zero_and_one(k: int, unit: str, like: str) -> tuple[float, float]:
     """Return 0 and 1 in the unit of a column, in SI units."""
     if like == "":
-        return 0.0, 1.0
+        if unit not in _PLAIN:
+            allowed = ", ".join(_PLAIN)
+            raise InputError(
+                f"column {k + 1} is a plain number, {as_given(unit)}; allowed: {allowed}", key=OPTION
+            )
+        return 0.0, _PLAIN[unit]
     try:
         return to_si(f"0 {unit}", like), to_si(f"1 {unit}", like)
     except UnitProblem as problem:
@@ -280,7 +292,11 @@ def _float(text: str) -> float:
 
 def _unit_of(run: xr.Dataset, name: str) -> str:
     """Return the SI unit of a variable as in case files: ``m/s^2`` for ``m s-2``; empty for plain numbers."""
-    units = str(run[name.split(".")[0]].attrs.get("units", "1"))
+    variable(run, name)
+    first, *labels = name.split(".")
+    if "output" in run[first].dims and "output_unit" in run:
+        return str(run["output_unit"].sel(output=labels[0]).item())
+    units = str(run[first].attrs.get("units", "1"))
     return "" if units == "1" else _POWER.sub(r"/\1^\2", units).replace("^1", "").replace(" /", "/")
 
 

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
+import json
+import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +20,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.studies import Sampling, calibration, fit_report, posterior
 from tribodyn.studies.calibration import EVALUATIONS, Calibration, VariedKey
 from tribodyn.studies.identifiability import statements
-from tribodyn.studies.measured import Experiment, Measured, read
+from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve, read
 
 TIMES: FloatArray = np.linspace(0.0, 2.0, 40)
 TRUTH = {"joint.clearance": 33e-6, "joint.friction_coefficient": 0.17}
@@ -164,6 +168,9 @@ def test_the_fitted_case_is_a_case_with_its_spread(tmp_path: Path) -> None:
         ("angle [rad], swing [m]\n0, 1\n1, 2\n", "first column"),
         ("quantity, value\nsteps, many\n", "no number"),
         ("quantity, mean\nsteps, 3\n", "columns quantity, value"),
+        ("quantity, value\nsteps\n", "row 1 has no value"),
+        (f"time [s], swing [m]\n0, {'1' * 200_000}\n1, 2\n", "field larger"),
+        (f"time [s], swing{' ' * 20_000}x [m] [\n0, 1\n1, 2\n", "unit in brackets"),
     ],
 )
 def test_data_that_fit_no_run_are_refused(content: str, message: str, tmp_path: Path) -> None:
@@ -171,6 +178,137 @@ def test_data_that_fit_no_run_are_refused(content: str, message: str, tmp_path: 
     path.write_text(content, encoding="utf-8")
     with pytest.raises(InputError, match=message):
         _read(path)
+
+
+def _with_outputs() -> xr.Dataset:
+    """Return a run with outputs in several units, all of which the variable calls plain numbers."""
+    time = np.linspace(0.0, 1.0, 5)
+    values = np.stack([1e-6 * time, np.radians(time), 1e-3 * time], axis=1)
+    return xr.Dataset(
+        {
+            "output_value": (("time", "output"), values, {"units": "1"}),
+            "output_error": (("time", "output"), values, {"units": "1"}),
+            "share": ("time", time, {"units": "1"}),
+        },
+        {"time": time, "output": ["tip", "arm", "speed"], "output_unit": ("output", ["m", "rad", "m/s"])},
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "value"),
+    [
+        ("output_error.tip", "um", 60e-6),
+        ("output_value.tip", "mm", 60e-3),
+        ("output_error.arm", "deg", np.radians(60.0)),
+        ("output_error.speed", "mm/s", 60e-3),
+        ("share", "%", 0.6),
+        ("share", "1", 60.0),
+    ],
+)
+def test_the_unit_of_an_output_is_its_own(name: str, unit: str, value: float, tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text(f"time [s], {name} [{unit}]\n0, 0\n1, 60\n", encoding="utf-8")
+    (curve,) = read(path, _with_outputs()).parts
+    assert isinstance(curve, MeasuredCurve)
+    assert curve.values[1] == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("output_error.tip", "kg"), ("output_error.tip", "deg"), ("output_error.arm", "um"), ("share", "kg")],
+)
+def test_a_wrong_unit_of_an_output_is_refused(name: str, unit: str, tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text(f"time [s], {name} [{unit}]\n0, 0\n1, 60\n", encoding="utf-8")
+    with pytest.raises(InputError, match=f"column 2.*{unit}"):
+        read(path, _with_outputs())
+
+
+def test_rounding_is_no_measurement_that_would_help(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def with_rounding(case: td.studies.sweep.__class__) -> xr.Dataset:
+        run = _model(case)[["product"]]
+        time = run["time"].values
+        across = np.random.default_rng(int(1e12 * case.joint.clearance)).normal(0.0, 2e-34, time.size)
+        both = np.stack([run["product"].values, across], axis=1)
+        run["displacement"] = (("time", "axis"), both, {"units": "m"})
+        return run.assign_coords(axis=["x", "z"])
+
+    monkeypatch.setattr(calibration, "simulate", with_rounding)
+    fit = _fit(_read(_file(tmp_path, "product")))
+    words = " ".join(statements(fit, fit.fitted(2)))
+    assert "trade off" in words
+    assert "displacement" not in words
+
+
+def _tampered() -> dict[str, Callable[[list[str]], list[str]]]:
+    """Return what may have happened to the lines of a file of evaluations."""
+    entry = {"values": [2e-5, 0.1], "computed": [0.0] * TIMES.size}
+
+    def with_line(**changes: object) -> Callable[[list[str]], list[str]]:
+        return lambda lines: [*lines, json.dumps(entry | changes)]
+
+    return {
+        "empty": lambda lines: [],
+        "without its first line": lambda lines: lines[1:],
+        "first line of another kind": lambda lines: ["[1]", *lines[1:]],
+        "a list": lambda lines: [*lines, "[1, 2]"],
+        "no JSON": lambda lines: [*lines, "{", *lines[1:]],
+        "too deep": lambda lines: [*lines, "[" * 100_000],
+        "not finite": with_line(computed=[float("nan")] * TIMES.size),
+        "not finite key": with_line(values=[float("inf"), 0.1]),
+        "huge": with_line(values=[10**400, 1]),
+        "short": with_line(computed=[0.0]),
+        "long": with_line(values=[2e-5, 0.1, 0.2]),
+        "texts": with_line(values=["2e-5", "0.1"]),
+        "nested": with_line(computed=[[0.0]] * TIMES.size),
+        "switches": with_line(values=[True, False]),
+        "null values": with_line(values=None),
+    }
+
+
+@pytest.mark.parametrize("change", _tampered())
+def test_tampered_evaluations_are_refused(change: str, tmp_path: Path) -> None:
+    data = _read(_file(tmp_path, "swing"))
+    _fit(data, tmp_path).computed([0.5, 0.5])
+    path = tmp_path / EVALUATIONS
+    lines = _tampered()[change](path.read_text(encoding="utf-8").splitlines())
+    path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+    with pytest.raises(InputError, match=r"evaluations\.jsonl.*choose another folder or remove the file"):
+        _fit(data, tmp_path)
+
+
+def test_evaluations_that_are_no_text_are_refused(tmp_path: Path) -> None:
+    data = _read(_file(tmp_path, "swing"))
+    _fit(data, tmp_path).computed([0.5, 0.5])
+    with (tmp_path / EVALUATIONS).open("ab") as file:
+        file.write(b"\xff\xfe\n")
+    with pytest.raises(InputError, match="line 3"):
+        _fit(data, tmp_path)
+
+
+def test_a_full_disk_leaves_no_evaluations_without_their_fit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An empty file would be taken for that of any fit, and the runs of another one for those of this one."""
+    data = _read(_file(tmp_path, "swing"))
+
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", full)
+        with pytest.raises(OSError, match="No space"):
+            _fit(data, tmp_path).computed([0.5, 0.5])
+    assert not (tmp_path / EVALUATIONS).exists()
+
+
+def test_runs_that_failed_are_kept_as_such(tmp_path: Path) -> None:
+    data = _read(_file(tmp_path, "swing"))
+    fit = _fit(data, tmp_path)
+    fit.known[name := json.dumps([2e-5, 0.1])] = [float("nan")] * TIMES.size
+    fit._keep(name)
+    assert "NaN" not in (tmp_path / EVALUATIONS).read_text(encoding="utf-8")
+    assert np.isnan(_fit(data, tmp_path).known[name]).all()
 
 
 def test_runs_with_settings_of_their_own_determine_what_one_does_not(tmp_path: Path) -> None:
