@@ -120,7 +120,7 @@ class Reader:
         for name in shown.evaluate_all("all => all.map(one => one.dataset.name)"):
             page.locator(f"#{name}").scroll_into_view_if_needed()
             page.wait_for_function(
-                "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=60_000
+                "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=300_000
             )
         page.evaluate("scrollTo(0, 0)")
         self.settle()
@@ -129,7 +129,7 @@ class Reader:
         """Scroll to a figure and wait until it is drawn."""
         self.page.locator(f"#{name}").scroll_into_view_if_needed()
         self.page.wait_for_function(
-            "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=60_000
+            "name => document.querySelector(`#${name} .plot`)?.plotted", arg=name, timeout=300_000
         )
 
     def go_to_frame(self, frame: int) -> None:

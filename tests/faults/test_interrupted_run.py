@@ -34,7 +34,7 @@ def test_a_stopped_run_saves_what_it_has(number: signal.Signals, tmp_path: Path)
     while " 10 %" not in (line := process.stderr.readline()):
         assert line, "the run ended before it could be stopped"
     process.send_signal(number)
-    out, err = process.communicate(timeout=120)
+    out, err = process.communicate(timeout=600)
     assert process.returncode == 1
     assert "the run stopped at t = " in err
     assert "saved in out" in err

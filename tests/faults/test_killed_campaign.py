@@ -60,7 +60,7 @@ def end(process: subprocess.Popen[bytes]) -> bool:
     """Kill a process as a power cut would; False if it was over already."""
     alive = process.poll() is None
     process.kill()
-    process.wait(timeout=60)
+    process.wait(timeout=600)
     return alive
 
 

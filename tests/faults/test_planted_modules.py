@@ -113,7 +113,7 @@ def imported(command: list[str], folder: Path) -> tuple[int, set[str]]:
     log = _log(folder)
     log.unlink(missing_ok=True)
     # The end of its output comes when no process holds it any more.
-    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=120)
+    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=600)
     return done.returncode, set(log.read_text().split()) if log.exists() else set()
 
 
@@ -153,7 +153,7 @@ def test_processes_that_compile_import_nothing_from_there(
     monkeypatch.chdir(planted)
     _log(planted).unlink(missing_ok=True)
     with compilation._child(ahead=ahead) as child:
-        child.communicate(timeout=60)
+        child.communicate(timeout=600)
     assert not _log(planted).exists()
 
 

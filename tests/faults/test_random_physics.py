@@ -196,8 +196,8 @@ OIL = Kind("journal-oil", oil_journal)
 
 def run(case: Any) -> xr.Dataset:
     """Simulate a case, with a limit to its time."""
-    began = time.monotonic()
-    result: xr.Dataset = simulate(case, stop=lambda: time.monotonic() - began > PATIENCE)
+    began = time.process_time()
+    result: xr.Dataset = simulate(case, stop=lambda: time.process_time() - began > PATIENCE)
     return result
 
 

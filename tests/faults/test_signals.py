@@ -93,7 +93,7 @@ def begun(command: Command, folder: Path, *, silent: bool = False) -> subprocess
         text=True,
         start_new_session=True,
     )
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + 600.0
     while not hears(process.pid) and process.poll() is None:
         assert time.monotonic() < deadline
         time.sleep(0.005)

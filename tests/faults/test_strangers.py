@@ -66,7 +66,7 @@ def family(shared: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[l
         found = [sweep, *sweep.children(recursive=True)]
         yield found
         sweep.kill()
-    assert psutil.wait_procs(found, timeout=20)[1] == []
+    assert psutil.wait_procs(found, timeout=300)[1] == []
 
 
 def listening(family: list[psutil.Process]) -> list[str]:

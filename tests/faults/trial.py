@@ -26,7 +26,7 @@ from tribodyn.cli.main import main
 
 MEGABYTES, SECONDS = 500, 10
 """What one command may take of memory, all that is imported included, and of a processor's time."""
-PATIENCE = 60
+PATIENCE = 600
 """Seconds by the clock after which a command counts as one that hangs."""
 _SPARE = 2
 """So many times as much the system gives at all."""

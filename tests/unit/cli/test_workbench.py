@@ -40,13 +40,13 @@ def test_it_says_where_it_is_lets_one_browser_in_and_leaves_nothing_behind():
         with pytest.raises(urllib.error.HTTPError, match="403"):
             asked(address)
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=30)
+        _, said = process.communicate(timeout=300)
     assert process.returncode == 0
     assert "closing the workbench" in said
     assert "Traceback" not in said
     token = address.partition("=")[2]
     assert token not in said
-    _, left = psutil.wait_procs(family, timeout=20)
+    _, left = psutil.wait_procs(family, timeout=300)
     assert left == []
 
 

@@ -94,4 +94,4 @@ def test_what_compiles_ends_with_whoever_asked_for_it() -> None:
         process.stdin.flush()
         assert process.stdout.readline() == b"case text\n"
         process.stdin.close()
-        assert process.wait(timeout=30) == 1
+        assert process.wait(timeout=300) == 1

@@ -34,8 +34,8 @@ TRIBODYN = [
     *(sys.executable, "-m", "tribodyn"),
 ]
 """The command as a process that ends with the one that began it, however that ends; on Linux."""
-SOON = 20.0
-"""Time within which everything must have happened, on a machine that does other things too [s]."""
+SOON = 300.0
+"""Time after which a test that waits has failed, however busy the machine is [s]."""
 
 
 class Pretending(WorkerPool):
