@@ -9,15 +9,15 @@ from __future__ import annotations
 
 import ast
 import math
-import operator
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from typing import Final
 
-from tribodyn.cases.units import SI_UNITS, UnitProblem, base_of, to_si_base
+from tribodyn.cases.units import SI_UNITS, UnitProblem, base_of, counts_from_zero, to_si_base
 from tribodyn.core.quoting import brief, meant
 
 Dimensions = tuple[tuple[str, Fraction], ...]
@@ -30,6 +30,8 @@ _LARGEST_POWER: Final = 8.0
 _LARGEST_ROOT: Final = 8
 _PLAIN: Final[Dimensions] = ()
 _ANGLE: Final[Dimensions] = (("radian", Fraction(1)),)
+_PER_TIME: Final[Dimensions] = (("second", Fraction(-1)),)
+_ROUNDING: Final = 1e-9
 _NUMBER: Final = re.compile(
     r"(?<![A-Za-z0-9_.])(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 )
@@ -52,10 +54,27 @@ class Dimensioned:
         In SI units.
     dimensions
         Of it.
+    zeros
+        Number of zeros of a temperature scale in the value, such as that of degC: 1 for a temperature in
+        degC, 0 for a difference of two, 2 for their sum. None without such a scale.
+    turns
+        Power of turns that the value counts instead of radians: 1 for a frequency, 0 for 2 pi times that.
     """
 
     value: float
     dimensions: Dimensions = _PLAIN
+    zeros: float | None = None
+    turns: Fraction = Fraction(0)
+
+    @property
+    def is_difference(self) -> bool:
+        """Whether this is a difference of two temperatures."""
+        return self.zeros is not None and abs(self.zeros) < _ROUNDING
+
+    @property
+    def has_scale(self) -> bool:
+        """Whether its value holds zeros of a temperature scale."""
+        return self.zeros is not None and not self.is_difference
 
 
 Function = Callable[..., Dimensioned]
@@ -89,10 +108,13 @@ def dimensions_of(unit: str) -> Dimensions:
     return found
 
 
-def unit_for(dimensions: Dimensions) -> str:
+def unit_for(found: Dimensioned) -> str:
     """Return the SI unit of a quantity that this package works with; empty for a plain number."""
+    dimensions = found.dimensions
     if not dimensions:
         return ""
+    if dimensions == _PER_TIME and found.turns <= 0:
+        return "rad/s"
     for unit in SI_UNITS:
         if dimensions_of(unit) == dimensions:
             return unit
@@ -105,16 +127,28 @@ def described(dimensions: Dimensions) -> str:
     return " ".join(parts) or "a plain number"
 
 
-def fits(found: Dimensions, wanted: Dimensions) -> bool:
-    """Return whether a quantity is of some dimensions; an arc, radius times angle, is a length."""
-    if found == wanted:
+def fits(found: Dimensions, wanted: Dimensions, turns: Fraction = Fraction(0)) -> bool:
+    """Return whether a quantity is of some dimensions.
+
+    The radian is 1: an arc, radius times angle, is a length, and a speed over a radius an angular speed. A
+    number of turns in some time is none.
+    """
+    if found == wanted or (_is_rate(found, wanted) and turns <= 0):
         return True
     names = dict(found)
     arc = "meter" in names and "radian" in names
     return arc and wanted == tuple((name, power) for name, power in found if name != "radian")
 
 
+def _is_rate(found: Dimensions, wanted: Dimensions) -> bool:
+    """Return whether one is a time to some power and the other an angle over it, or times it."""
+    return dict(wanted).keys() == {"radian", "second"} and found == _times(wanted, _ANGLE, -1)
+
+
 def _same(a: Dimensioned, b: Dimensioned, what: str) -> Dimensions:
+    for one, other in ((a, b), (b, a)):
+        if fits(one.dimensions, other.dimensions, one.turns) and _is_rate(one.dimensions, other.dimensions):
+            return other.dimensions
     if a.dimensions == b.dimensions or (not b.value and not b.dimensions):
         return a.dimensions
     if not a.value and not a.dimensions:
@@ -131,9 +165,40 @@ def _is_power(exponent: Dimensioned) -> Fraction:
 
 def _power(base: Dimensioned, exponent: Dimensioned) -> Dimensioned:
     power = _is_power(exponent)
+    _refuse_scale(base)
     if base.dimensions and power.denominator > _LARGEST_ROOT:
         raise ExpressionProblem("a quantity with a unit has a power such as 2 or 1/2")
-    return Dimensioned(math.pow(base.value, exponent.value), _raised(base.dimensions, power))
+    turns = base.turns * power
+    return Dimensioned(math.pow(base.value, exponent.value), _raised(base.dimensions, power), turns=turns)
+
+
+def _refuse_scale(*operands: Dimensioned) -> None:
+    """Refuse temperatures of a scale with a zero of its own, such as degC, where only sums have a meaning."""
+    if any(one.has_scale for one in operands):
+        raise ExpressionProblem("a temperature in degC can be added to and compared only: write it in K")
+
+
+def _sum(a: Dimensioned, b: Dimensioned, sign: int) -> Dimensioned:
+    dimensions = _same(a, b, "a sum" if sign > 0 else "a difference")
+    zeros = None if a.zeros is b.zeros is None else (a.zeros or 0.0) + sign * (b.zeros or 0.0)
+    if sign > 0 and a.zeros is None and b.has_scale and a.value:
+        raise ExpressionProblem("what is added to a temperature is a difference: write it in K, not in degC")
+    return Dimensioned(a.value + sign * b.value, dimensions, zeros, max(a.turns, b.turns))
+
+
+def _product(a: Dimensioned, b: Dimensioned, sign: int) -> Dimensioned:
+    value = a.value * b.value if sign > 0 else a.value / b.value
+    dimensions, turns = _times(a.dimensions, b.dimensions, sign), a.turns + sign * b.turns
+    if sign < 0 and dimensions == _PER_TIME and not a.dimensions:
+        turns += 1  # so many in some time, such as 3000 / (60 s)
+    zeros = None
+    if a.zeros is not None and not b.dimensions:
+        zeros = a.zeros * b.value if sign > 0 else a.zeros / b.value
+    elif b.zeros is not None and not a.dimensions and sign > 0:
+        zeros = a.value * b.zeros
+    else:
+        _refuse_scale(a, b)
+    return Dimensioned(value, dimensions, zeros, turns)
 
 
 def _of_angle(function: Callable[[float], float]) -> Function:
@@ -159,13 +224,26 @@ def _arctangent(y: Dimensioned, x: Dimensioned) -> Dimensioned:
     return Dimensioned(math.atan2(y.value, x.value), _ANGLE)
 
 
-def _extreme(choose: Callable[[float, float], float]) -> Function:
-    return lambda a, b: Dimensioned(choose(a.value, b.value), _same(a, b, "a comparison"))
+def _extreme(choose: Callable[..., Dimensioned]) -> Function:
+    def call(*quantities: Dimensioned) -> Dimensioned:
+        dimensions, zeros = quantities[0].dimensions, {one.zeros for one in quantities} - {None}
+        for a, b in pairwise(quantities):
+            dimensions = _same(replace(a, dimensions=dimensions), b, "a comparison")
+        if len(zeros) > 1:
+            raise ExpressionProblem("a comparison of a temperature and a difference of temperatures")
+        chosen, turns = choose(quantities, key=_value), max(one.turns for one in quantities)
+        return Dimensioned(chosen.value, dimensions, next(iter(zeros), None), turns)
+
+    return call
+
+
+def _value(x: Dimensioned) -> float:
+    return x.value
 
 
 FUNCTIONS: Final[Mapping[str, tuple[int, Function]]] = {
-    "sqrt": (1, lambda x: Dimensioned(math.sqrt(x.value), _raised(x.dimensions, Fraction(1, 2)))),
-    "abs": (1, lambda x: Dimensioned(abs(x.value), x.dimensions)),
+    "sqrt": (1, lambda x: _power(x, Dimensioned(0.5))),
+    "abs": (1, lambda x: replace(x, value=abs(x.value))),
     "hypot": (2, lambda a, b: Dimensioned(math.hypot(a.value, b.value), _same(a, b, "the hypotenuse"))),
     "sin": (1, _of_angle(math.sin)),
     "cos": (1, _of_angle(math.cos)),
@@ -178,17 +256,19 @@ FUNCTIONS: Final[Mapping[str, tuple[int, Function]]] = {
     "max": (2, _extreme(max)),
 }
 """Functions of expressions, with the number of their arguments."""
-CONSTANTS: Final = {"pi": Dimensioned(math.pi)}
+OF_ANY_NUMBER: Final = ("min", "max")
+"""Functions that take more arguments, too."""
+CONSTANTS: Final = {"pi": Dimensioned(math.pi, turns=Fraction(-1))}
 _OPERATIONS: Final[Mapping[type[ast.operator], Function]] = {
-    ast.Add: lambda a, b: Dimensioned(a.value + b.value, _same(a, b, "a sum")),
-    ast.Sub: lambda a, b: Dimensioned(a.value - b.value, _same(a, b, "a difference")),
-    ast.Mult: lambda a, b: Dimensioned(a.value * b.value, _times(a.dimensions, b.dimensions)),
-    ast.Div: lambda a, b: Dimensioned(a.value / b.value, _times(a.dimensions, b.dimensions, -1)),
+    ast.Add: lambda a, b: _sum(a, b, 1),
+    ast.Sub: lambda a, b: _sum(a, b, -1),
+    ast.Mult: lambda a, b: _product(a, b, 1),
+    ast.Div: lambda a, b: _product(a, b, -1),
     ast.Pow: _power,
 }
-_SIGNS: Final[Mapping[type[ast.unaryop], Callable[[float], float]]] = {
-    ast.UAdd: operator.pos,
-    ast.USub: operator.neg,
+_SIGNS: Final[Mapping[type[ast.unaryop], Dimensioned]] = {
+    ast.UAdd: Dimensioned(1.0),
+    ast.USub: Dimensioned(-1.0),
 }
 
 
@@ -236,6 +316,11 @@ def evaluate(text: str, scope: Mapping[str, Dimensioned]) -> Dimensioned:
         raise ExpressionProblem("a function has no value there") from None
     if not math.isfinite(found.value):
         raise ExpressionProblem("it is too large")
+    if found.has_scale and not math.isclose(found.zeros or 0.0, 1.0, rel_tol=_ROUNDING):
+        raise ExpressionProblem(
+            f"it holds {found.zeros:g} times the zero of degC, which no temperature does: write differences, "
+            "and temperatures that are multiplied, in K"
+        )
     return found
 
 
@@ -253,7 +338,9 @@ def _without_units(text: str, scope: Mapping[str, Dimensioned]) -> tuple[str, di
             value = to_si_base(f"{number[0]} {unit}") if unit else float(number[0])
         except UnitProblem as problem:
             raise ExpressionProblem(str(problem)) from None
-        found[name] = Dimensioned(value, dimensions_of(unit))
+        dimensions = dimensions_of(unit)
+        zeros = 1.0 if unit and counts_from_zero(unit) else None
+        found[name] = Dimensioned(value, dimensions, zeros, Fraction(dimensions == _PER_TIME))
         written, place = written + name, end
     return written + text[place:], found
 
@@ -294,8 +381,7 @@ def _walk(
     if isinstance(node, ast.Name):
         return _named(node.id, known, scope)
     if isinstance(node, ast.UnaryOp) and type(node.op) in _SIGNS:
-        held = inside(node.operand)
-        return Dimensioned(_SIGNS[type(node.op)](held.value), held.dimensions)
+        return _product(_SIGNS[type(node.op)], inside(node.operand), 1)
     if isinstance(node, ast.BinOp) and type(node.op) in _OPERATIONS:
         return _OPERATIONS[type(node.op)](inside(node.left), inside(node.right))
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
@@ -317,6 +403,11 @@ def _called(name: str, arguments: list[Dimensioned]) -> Dimensioned:
             f"there is no function {brief(name)!r}; known: {', '.join(FUNCTIONS)}{meant(name, FUNCTIONS)}"
         )
     n, function = FUNCTIONS[name]
+    if name in OF_ANY_NUMBER:
+        if len(arguments) < n:
+            raise ExpressionProblem(f"{name} takes {n} arguments or more, given {len(arguments)}")
+        return function(*arguments)
     if len(arguments) != n:
         raise ExpressionProblem(f"{name} takes {n} argument{'s' if n > 1 else ''}, given {len(arguments)}")
+    _refuse_scale(*arguments)
     return function(*arguments)

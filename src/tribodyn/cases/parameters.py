@@ -23,7 +23,7 @@ from tribodyn.cases.expressions import (
 from tribodyn.cases.keys import Key, Value, shown
 from tribodyn.cases.known_units import EVERYDAY
 from tribodyn.cases.lists import LISTS
-from tribodyn.cases.units import AMPLITUDES, UnitProblem, si_unit, unit_of, with_shared_unit
+from tribodyn.cases.units import AMPLITUDES, UnitProblem, counts_from_zero, si_unit, unit_of, with_shared_unit
 from tribodyn.core.errors import Faults, InputError
 
 TABLE: Final = "parameters"
@@ -172,7 +172,7 @@ def _unit(value: object, found: Dimensioned) -> str:
             return unit
     except (UnitProblem, StopIteration):
         pass
-    return unit_for(found.dimensions)
+    return unit_for(found)
 
 
 def unused_parameters(entries: Mapping[str, Entry], names: Collection[str]) -> list[str]:
@@ -260,9 +260,12 @@ def _evaluated(key: Key, entry: Entry, scope: Scope) -> Entry:
 def _in_si(key: Key, text: str, scope: Scope) -> object:
     found = evaluate(text, scope.quantities)
     wanted = dimensions_of(key.unit)
-    if not fits(found.dimensions, wanted) and (found.dimensions or found.value):
+    if not fits(found.dimensions, wanted, found.turns) and (found.dimensions or found.value):
         words = f"it is {described(found.dimensions)}, and {described(wanted)} is needed"
-        raise ExpressionProblem(words)
+        turning = " (2*pi times turns in some time is an angular speed)" if found.turns > 0 else ""
+        raise ExpressionProblem(words + turning)
+    if found.is_difference and key.unit and counts_from_zero(key.unit):
+        raise ExpressionProblem("it is a difference of temperatures, and a temperature is needed")
     return f"{found.value!r} {si_unit(key.unit)}" if key.unit else found.value
 
 

@@ -47,6 +47,7 @@ _DIMENSIONS: Final = {
     "m/s": "speed",
     "m/s^2": "acceleration",
     "rad/s": "angular speed",
+    "Hz": "frequency",
     "N/m": "stiffness",
     "N m/rad": "angular stiffness",
     "N s/m": "damping",
@@ -146,6 +147,11 @@ def to_si(text: str, like: str) -> float:
 def base_of(unit: str) -> str:
     """Return what a unit that a user wrote is in SI base units: ``kilogram * meter / second ** 2``."""
     return _known(unit).base
+
+
+def counts_from_zero(unit: str) -> bool:
+    """Return whether a unit counts from a zero of its own, as degC does."""
+    return bool(_known(unit).zero)
 
 
 def to_si_base(text: str) -> float:

@@ -10,6 +10,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases.expressions import (
     FUNCTIONS,
+    OF_ANY_NUMBER,
     Dimensioned,
     ExpressionProblem,
     dimensions_of,
@@ -104,8 +105,161 @@ def test_an_arc_is_a_length_and_a_frequency_is_no_angular_one() -> None:
 
 def test_every_function_names_how_many_arguments_it_takes() -> None:
     for name, (n, _) in FUNCTIONS.items():
+        given = n - 1 if name in OF_ANY_NUMBER else n + 1
         with pytest.raises(ExpressionProblem, match=f"{name} takes {n} argument"):
-            evaluate(f"{name}({', '.join(['ratio'] * (n + 1))})", SCOPE)
+            evaluate(f"{name}({', '.join(['ratio'] * given)})", SCOPE)
+
+
+WARM = evaluate("90 degC", {})
+TEMPERATURES = {
+    "T": WARM,
+    "T_2": evaluate("20 degC", {}),
+    "K_1": evaluate("363.15 K", {}),
+    "dT": evaluate("10 K", {}),
+}
+RIGHT = {
+    "T": 363.15,
+    "T + 10 K": 373.15,
+    "T - 10 K": 353.15,
+    "T + dT": 373.15,
+    "T - dT": 353.15,
+    "20 degC + 10 K": 303.15,
+    "20 degC + dT": 303.15,
+    "dT + 5 K": 15.0,
+    "2 * dT": 20.0,
+    "T + 2 * dT": 383.15,
+    "T - T_2": 70.0,
+    "T - 20 degC": 70.0,
+    "T_2 + (T - T_2) / 2": 328.15,
+    "T_2 + 0.25 * (T - T_2)": 310.65,
+    "(T + T_2) / 2": 328.15,
+    "0.5 * (T + T_2)": 328.15,
+    "0.3 * T + 0.7 * T_2": 0.3 * 363.15 + 0.7 * 293.15,
+    "(T + T_2 + 40 degC) / 3": (363.15 + 293.15 + 313.15) / 3.0,
+    "2 * T - T": 363.15,
+    "T + T_2 - 20 degC": 363.15,
+    "T - T_2 + 30 degC": 373.15,
+    "max(T, T_2)": 363.15,
+    "min(T, T_2)": 293.15,
+    "max(T, T_2, 100 degC)": 373.15,
+    "max(T, 300 K)": 363.15,
+    "abs(T_2 - T)": 70.0,
+    "2 * K_1": 726.3,
+    "K_1 + 10 K": 373.15,
+    "1.1 * 300 K": 330.0,
+    "-(T_2 - T)": 70.0,
+    "T + 0": 363.15,
+    "0 + T": 363.15,
+}
+"""Temperatures [K]: 90 and 20 degC, 363.15 K, and a difference of 10 K."""
+NO_TEMPERATURE = {
+    "T + 10 degC": "2 times the zero of degC",
+    "2 * T": "2 times the zero of degC",
+    "T / 2": "0.5 times the zero of degC",
+    "T + T_2": "2 times the zero of degC",
+    "-T": "-1 times the zero of degC",
+    "300 K - T": "-1 times the zero of degC",
+    "K_1 + 10 degC": "what is added to a temperature is a difference",
+    "dT + 10 degC": "what is added to a temperature is a difference",
+    "T / T_2": "added to and compared only",
+    "T / (20 degC)": "added to and compared only",
+    "1 / T": "added to and compared only",
+    "T^2": "added to and compared only",
+    "sqrt(T)": "added to and compared only",
+    "abs(T)": "added to and compared only",
+    "hypot(T, T_2)": "added to and compared only",
+    "T * 1.2e-5 m": "added to and compared only",
+    "max(T, T - T_2)": "a comparison of a temperature and a difference",
+    "T + 10 mm": "a sum of kelvin and meter",
+}
+assert len(RIGHT) + len(NO_TEMPERATURE) >= 40
+
+
+@pytest.mark.parametrize("text", RIGHT)
+def test_a_temperature_in_an_expression_is_right(text: str) -> None:
+    assert evaluate(text, TEMPERATURES).value == pytest.approx(RIGHT[text], rel=1e-14)
+
+
+@pytest.mark.parametrize("text", NO_TEMPERATURE)
+def test_a_temperature_that_has_no_meaning_is_refused(text: str) -> None:
+    with pytest.raises(ExpressionProblem, match=NO_TEMPERATURE[text]):
+        evaluate(text, TEMPERATURES)
+
+
+def test_temperatures_of_a_case_follow_their_parameters() -> None:
+    text = """
+        case = "vsv"
+        [parameters]
+        T = "90 degC"
+        [temperature]
+        bushing = "T + 10 K"
+        [surfaces.bushing]
+        thermal_expansion = "20e-6 1/K"
+    """
+    case = parse_case(text, "test")
+    assert case.at("temperature.bushing") == pytest.approx(373.15)
+    warmer = case.replace({"parameters.T": "100 degC"})
+    assert warmer.at("temperature.bushing") == pytest.approx(383.15)
+    again = parse_case(warmer.to_toml(), "test")
+    assert again.at("temperature.bushing") == warmer.at("temperature.bushing")
+    for text, words in (("T + 10 degC", "zero of degC"), ("T - 20 degC", "a difference of temperatures")):
+        with pytest.raises(InputError, match=rf"temperature\.bushing.*{words}"):
+            case.replace({"temperature.bushing": text})
+
+
+ANGULAR = {
+    "f": evaluate("50 Hz", {}),
+    "v": evaluate("3 m/s", {}),
+    "c": evaluate("1.5 m", {}),
+    "n": evaluate("3000 rpm", {}),
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "speed"),
+    [
+        ("v / c", 2.0),
+        ("2 * pi * f", 314.1592653589793),
+        ("2 * pi / (20 ms)", 314.1592653589793),
+        ("f * 2 * pi", 314.1592653589793),
+        ("f * 360 deg", 314.1592653589793),
+        ("n + v / c", 316.1592653589793),
+        ("v / c + 1 rad/s", 3.0),
+        ("max(v / c, 1 rad/s, 5 rad/s)", 5.0),
+        ("sqrt(9.81 m/s^2 / (9.81 m))", 1.0),
+    ],
+)
+def test_the_radian_is_one_in_an_angular_speed(text: str, speed: float) -> None:
+    found = evaluate(text, ANGULAR)
+    assert found.value == pytest.approx(speed, rel=1e-14)
+    assert fits(found.dimensions, dimensions_of("rad/s"), found.turns)
+
+
+@pytest.mark.parametrize(
+    "text", ["f", "2 * f", "50 Hz", "3000 / (60 s)", "1 / (2 s)", "f / pi", "f * (1 + 0)", "max(f, v / c)"]
+)
+def test_turns_in_some_time_are_no_angular_speed(text: str) -> None:
+    found = evaluate(text, ANGULAR)
+    assert not fits(found.dimensions, dimensions_of("rad/s"), found.turns)
+
+
+def test_a_frequency_is_a_parameter() -> None:
+    text = 'case = "vsv"\n[parameters]\nf = "8 Hz"\n[drive]\nangular_frequency = "2 * pi * f"\n'
+    case = parse_case(text, "test")
+    assert case.at("drive.angular_frequency") == pytest.approx(16.0 * 3.141592653589793)
+    assert 'f = "8 Hz"' in case.to_toml()
+    assert parse_case(case.to_toml(), "test").at("drive.angular_frequency") == case.at(
+        "drive.angular_frequency"
+    )
+    plan = make_plan(case, {"parameters.f": "4:8:4 Hz"}, Sampling())
+    assert len(plan.points) == 2
+    with pytest.raises(InputError, match=r"2\*pi times turns"):
+        case.replace({"drive.angular_frequency": "f"})
+
+
+@pytest.mark.parametrize(("text", "value"), [("max(1, 2, ratio)", 3.0), ("min(4, ratio, 5, 6)", 3.0)])
+def test_the_extreme_of_more_than_two(text: str, value: float) -> None:
+    assert evaluate(text, SCOPE).value == value
 
 
 MODEL = """
