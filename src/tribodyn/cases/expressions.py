@@ -11,27 +11,33 @@ import ast
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 from typing import Final
 
-from tribodyn.cases.units import SI_UNITS, UnitProblem, base_of, counts_from_zero, to_si_base
+from tribodyn.cases.dimensions import (
+    ANGLE,
+    PER_TIME,
+    PLAIN,
+    ROUNDING,
+    Dimensioned,
+    ExpressionProblem,
+    described,
+    dimensions_of,
+    raised,
+    same,
+    times,
+)
+from tribodyn.cases.units import UnitProblem, base_of, counts_from_zero, to_si_base
 from tribodyn.core.quoting import brief, meant
-
-Dimensions = tuple[tuple[str, Fraction], ...]
-"""Powers of base units other than zero, by their names, sorted."""
 
 LONGEST: Final = 200
 """Characters of an expression."""
 _DEEPEST: Final = 30
 _LARGEST_POWER: Final = 8.0
 _LARGEST_ROOT: Final = 8
-_PLAIN: Final[Dimensions] = ()
-_ANGLE: Final[Dimensions] = (("radian", Fraction(1)),)
-_PER_TIME: Final[Dimensions] = (("second", Fraction(-1)),)
-_ROUNDING: Final = 1e-9
 _NUMBER: Final = re.compile(
     r"(?<![A-Za-z0-9_.])(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 )
@@ -40,120 +46,7 @@ _NEXT_UNIT: Final = re.compile(r"(\s*[*/]\s*|\s+)([A-Za-z%][A-Za-z_]*)(?:(?:\^|\
 _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
-class ExpressionProblem(ValueError):
-    """An expression has no value; the message says why."""
-
-
-@dataclass(frozen=True)
-class Dimensioned:
-    """A number with its dimensions.
-
-    Attributes
-    ----------
-    value
-        In SI units.
-    dimensions
-        Of it.
-    zeros
-        Number of zeros of a temperature scale in the value, such as that of degC: 1 for a temperature in
-        degC, 0 for a difference of two, 2 for their sum. None without such a scale.
-    turns
-        Power of turns that the value counts instead of radians: 1 for a frequency, 0 for 2 pi times that.
-    """
-
-    value: float
-    dimensions: Dimensions = _PLAIN
-    zeros: float | None = None
-    turns: Fraction = Fraction(0)
-
-    @property
-    def is_difference(self) -> bool:
-        """Whether this is a difference of two temperatures."""
-        return self.zeros is not None and abs(self.zeros) < _ROUNDING
-
-    @property
-    def has_scale(self) -> bool:
-        """Whether its value holds zeros of a temperature scale."""
-        return self.zeros is not None and not self.is_difference
-
-
 Function = Callable[..., Dimensioned]
-
-
-def _times(a: Dimensions, b: Dimensions, sign: int = 1) -> Dimensions:
-    powers = dict(a)
-    for name, power in b:
-        powers[name] = powers.get(name, Fraction(0)) + sign * power
-    return tuple(sorted((name, power) for name, power in powers.items() if power))
-
-
-def _raised(a: Dimensions, power: Fraction) -> Dimensions:
-    return tuple((name, power * held) for name, held in a if power)
-
-
-@lru_cache(maxsize=256)
-def dimensions_of(unit: str) -> Dimensions:
-    """Return the dimensions of a unit; none for an empty one."""
-    if not unit:
-        return _PLAIN
-    found: Dimensions = _PLAIN
-    sign = 1
-    for token in re.split(r"\s+(?=[*/]\s)|(?<=\s[*/])\s+", base_of(unit)):
-        token = token.strip()
-        if token in ("*", "/"):
-            sign = 1 if token == "*" else -1
-        elif token not in ("1", "dimensionless"):
-            name, _, power = token.partition(" ** ")
-            found = _times(found, ((name, Fraction(power or "1")),), sign)
-    return found
-
-
-def unit_for(found: Dimensioned) -> str:
-    """Return the SI unit of a quantity that this package works with; empty for a plain number."""
-    dimensions = found.dimensions
-    if not dimensions:
-        return ""
-    if dimensions == _PER_TIME and found.turns <= 0:
-        return "rad/s"
-    for unit in SI_UNITS:
-        if dimensions_of(unit) == dimensions:
-            return unit
-    raise ExpressionProblem(f"it is {described(dimensions)}: write it where it is needed, not as a parameter")
-
-
-def described(dimensions: Dimensions) -> str:
-    """Return dimensions as a user reads them: ``meter^2/second``."""
-    parts = ["".join((name, f"^{power}" if power != 1 else "")) for name, power in dimensions]
-    return " ".join(parts) or "a plain number"
-
-
-def fits(found: Dimensions, wanted: Dimensions, turns: Fraction = Fraction(0)) -> bool:
-    """Return whether a quantity is of some dimensions.
-
-    The radian is 1: an arc, radius times angle, is a length, and a speed over a radius an angular speed. A
-    number of turns in some time is none.
-    """
-    if found == wanted or (_is_rate(found, wanted) and turns <= 0):
-        return True
-    names = dict(found)
-    arc = "meter" in names and "radian" in names
-    return arc and wanted == tuple((name, power) for name, power in found if name != "radian")
-
-
-def _is_rate(found: Dimensions, wanted: Dimensions) -> bool:
-    """Return whether one is a time to some power and the other an angle over it, or times it."""
-    return dict(wanted).keys() == {"radian", "second"} and found == _times(wanted, _ANGLE, -1)
-
-
-def _same(a: Dimensioned, b: Dimensioned, what: str) -> Dimensions:
-    for one, other in ((a, b), (b, a)):
-        if fits(one.dimensions, other.dimensions, one.turns) and _is_rate(one.dimensions, other.dimensions):
-            return other.dimensions
-    if a.dimensions == b.dimensions or (not b.value and not b.dimensions):
-        return a.dimensions
-    if not a.value and not a.dimensions:
-        return b.dimensions
-    raise ExpressionProblem(f"{what} of {described(a.dimensions)} and {described(b.dimensions)}")
 
 
 def _is_power(exponent: Dimensioned) -> Fraction:
@@ -169,7 +62,7 @@ def _power(base: Dimensioned, exponent: Dimensioned) -> Dimensioned:
     if base.dimensions and power.denominator > _LARGEST_ROOT:
         raise ExpressionProblem("a quantity with a unit has a power such as 2 or 1/2")
     turns = base.turns * power
-    return Dimensioned(math.pow(base.value, exponent.value), _raised(base.dimensions, power), turns=turns)
+    return Dimensioned(math.pow(base.value, exponent.value), raised(base.dimensions, power), turns=turns)
 
 
 def _refuse_scale(*operands: Dimensioned) -> None:
@@ -179,7 +72,7 @@ def _refuse_scale(*operands: Dimensioned) -> None:
 
 
 def _sum(a: Dimensioned, b: Dimensioned, sign: int) -> Dimensioned:
-    dimensions = _same(a, b, "a sum" if sign > 0 else "a difference")
+    dimensions = same(a, b, "a sum" if sign > 0 else "a difference")
     zeros = None if a.zeros is b.zeros is None else (a.zeros or 0.0) + sign * (b.zeros or 0.0)
     if sign > 0 and a.zeros is None and b.has_scale and a.value:
         raise ExpressionProblem("what is added to a temperature is a difference: write it in K, not in degC")
@@ -188,8 +81,8 @@ def _sum(a: Dimensioned, b: Dimensioned, sign: int) -> Dimensioned:
 
 def _product(a: Dimensioned, b: Dimensioned, sign: int) -> Dimensioned:
     value = a.value * b.value if sign > 0 else a.value / b.value
-    dimensions, turns = _times(a.dimensions, b.dimensions, sign), a.turns + sign * b.turns
-    if sign < 0 and dimensions == _PER_TIME and not a.dimensions:
+    dimensions, turns = times(a.dimensions, b.dimensions, sign), a.turns + sign * b.turns
+    if sign < 0 and dimensions == PER_TIME and not a.dimensions:
         turns += 1  # so many in some time, such as 3000 / (60 s)
     zeros = None
     if a.zeros is not None and not b.dimensions:
@@ -203,7 +96,7 @@ def _product(a: Dimensioned, b: Dimensioned, sign: int) -> Dimensioned:
 
 def _of_angle(function: Callable[[float], float]) -> Function:
     def call(x: Dimensioned) -> Dimensioned:
-        if x.dimensions not in (_ANGLE, _PLAIN):
+        if x.dimensions not in (ANGLE, PLAIN):
             raise ExpressionProblem(f"an angle is needed, given {described(x.dimensions)}")
         return Dimensioned(function(x.value))
 
@@ -214,21 +107,21 @@ def _to_angle(function: Callable[[float], float]) -> Function:
     def call(x: Dimensioned) -> Dimensioned:
         if x.dimensions:
             raise ExpressionProblem(f"a plain number is needed, given {described(x.dimensions)}")
-        return Dimensioned(function(x.value), _ANGLE)
+        return Dimensioned(function(x.value), ANGLE)
 
     return call
 
 
 def _arctangent(y: Dimensioned, x: Dimensioned) -> Dimensioned:
-    _same(y, x, "the angle of a triangle")
-    return Dimensioned(math.atan2(y.value, x.value), _ANGLE)
+    same(y, x, "the angle of a triangle")
+    return Dimensioned(math.atan2(y.value, x.value), ANGLE)
 
 
 def _extreme(choose: Callable[..., Dimensioned]) -> Function:
     def call(*quantities: Dimensioned) -> Dimensioned:
         dimensions, zeros = quantities[0].dimensions, {one.zeros for one in quantities} - {None}
         for a, b in pairwise(quantities):
-            dimensions = _same(replace(a, dimensions=dimensions), b, "a comparison")
+            dimensions = same(replace(a, dimensions=dimensions), b, "a comparison")
         if len(zeros) > 1:
             raise ExpressionProblem("a comparison of a temperature and a difference of temperatures")
         chosen, turns = choose(quantities, key=_value), max(one.turns for one in quantities)
@@ -244,7 +137,7 @@ def _value(x: Dimensioned) -> float:
 FUNCTIONS: Final[Mapping[str, tuple[int, Function]]] = {
     "sqrt": (1, lambda x: _power(x, Dimensioned(0.5))),
     "abs": (1, lambda x: replace(x, value=abs(x.value))),
-    "hypot": (2, lambda a, b: Dimensioned(math.hypot(a.value, b.value), _same(a, b, "the hypotenuse"))),
+    "hypot": (2, lambda a, b: Dimensioned(math.hypot(a.value, b.value), same(a, b, "the hypotenuse"))),
     "sin": (1, _of_angle(math.sin)),
     "cos": (1, _of_angle(math.cos)),
     "tan": (1, _of_angle(math.tan)),
@@ -316,7 +209,7 @@ def evaluate(text: str, scope: Mapping[str, Dimensioned]) -> Dimensioned:
         raise ExpressionProblem("a function has no value there") from None
     if not math.isfinite(found.value):
         raise ExpressionProblem("it is too large")
-    if found.has_scale and not math.isclose(found.zeros or 0.0, 1.0, rel_tol=_ROUNDING):
+    if found.has_scale and not math.isclose(found.zeros or 0.0, 1.0, rel_tol=ROUNDING):
         raise ExpressionProblem(
             f"it holds {found.zeros:g} times the zero of degC, which no temperature does: write differences, "
             "and temperatures that are multiplied, in K"
@@ -340,7 +233,7 @@ def _without_units(text: str, scope: Mapping[str, Dimensioned]) -> tuple[str, di
             raise ExpressionProblem(str(problem)) from None
         dimensions = dimensions_of(unit)
         zeros = 1.0 if unit and counts_from_zero(unit) else None
-        found[name] = Dimensioned(value, dimensions, zeros, Fraction(dimensions == _PER_TIME))
+        found[name] = Dimensioned(value, dimensions, zeros, Fraction(dimensions == PER_TIME))
         written, place = written + name, end
     return written + text[place:], found
 

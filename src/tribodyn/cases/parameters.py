@@ -6,20 +6,16 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from tribodyn.cases.entry import Entry, read_entry
-from tribodyn.cases.expressions import (
-    CONSTANTS,
-    FUNCTIONS,
+from tribodyn.cases.dimensions import (
     Dimensioned,
     ExpressionProblem,
     described,
     dimensions_of,
-    evaluate,
     fits,
-    is_unit,
-    names_in,
     unit_for,
 )
+from tribodyn.cases.entry import Entry, read_entry
+from tribodyn.cases.expressions import CONSTANTS, FUNCTIONS, evaluate, is_unit, names_in
 from tribodyn.cases.keys import Key, Value, shown
 from tribodyn.cases.known_units import EVERYDAY
 from tribodyn.cases.lists import LISTS

@@ -8,15 +8,8 @@ from typing import Any
 import pytest
 
 import tribodyn as td
-from tribodyn.cases.expressions import (
-    FUNCTIONS,
-    OF_ANY_NUMBER,
-    Dimensioned,
-    ExpressionProblem,
-    dimensions_of,
-    evaluate,
-    fits,
-)
+from tribodyn.cases.dimensions import Dimensioned, ExpressionProblem, dimensions_of, fits
+from tribodyn.cases.expressions import FUNCTIONS, OF_ANY_NUMBER, evaluate
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.studies.plan import Sampling, make_plan
