@@ -71,6 +71,8 @@ def _in_words(names: Sequence[str], found: RunDifferences) -> Iterator[str]:
     rows = [_row(row) for group in found.groups if group["name"] not in LEFT_OUT for row in group["rows"]]
     widths = [max(map(len, column)) for column in zip(*heads, *rows, strict=True)]
     warnings = [summary["doubtful"] for summary in found.summaries]
+    if found.stretch:
+        yield found.stretch
     for table, marks in ((heads, [""] * len(names)), (rows, warnings)):
         for first, *others in table:
             cells = [f"{text:>{width}}" for text, width in zip(others, widths[1:], strict=True)]
@@ -79,8 +81,6 @@ def _in_words(names: Sequence[str], found: RunDifferences) -> Iterator[str]:
     yield from (
         caution(mark, f"the numbers of {name}") for name, mark in zip(names, warnings, strict=True) if mark
     )
-    if found.stretch:
-        yield found.stretch
 
 
 def _row(row: Mapping[str, Any]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
@@ -21,8 +22,12 @@ from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common
 from tribodyn.views.numbers import in_words
 
-OF_STRETCH: Final = ("Accuracy", "Load")
-"""Groups of key results that hang on which stretch of the motion they are taken from."""
+OF_RUN: Final = ("Wear", "Loss", "Trust", "Effort")
+"""Groups of key results that are of each whole run; all others are of the stretch that the runs share."""
+_OF_RUN: Final = re.compile(r"(^|_)(wear|life|heat)(_|$)")
+"""Names of such numbers in other groups, as those of joints."""
+_ALIKE: Final = 2.0
+"""Ratio of the cycles of two runs from which on it is named."""
 NOTABLE: Final = 0.01
 """Relative difference from the first run above which a number stands out."""
 
@@ -58,7 +63,7 @@ class RunDifferences:
         Key results in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each
         run, a cell of ``value``, ``change``, whether that is ``notable`` and the run ``doubtful``.
     stretch
-        What loads and accuracy were taken from, in a sentence; empty where that is the whole of each run.
+        What numbers of the motion were taken from, in a sentence; empty where that is each whole run.
     summaries
         The numbers themselves, for each run.
     """
@@ -72,6 +77,7 @@ class RunDifferences:
 def differences(results: Sequence[xr.Dataset]) -> RunDifferences:
     """Return what differs between results, like beside like."""
     summaries, stretch = _compared(results)
+    stretch = " ".join(filter(None, (stretch or _of_lengths(summaries), _of_whole_runs(summaries))))
     return RunDifferences(_different_keys(results), _numbers(summaries), stretch, summaries)
 
 
@@ -120,19 +126,42 @@ def render(runs: Sequence[ComparedRun]) -> str:
 def _compared(results: Sequence[xr.Dataset]) -> tuple[list[dict[str, Any]], str]:
     """Return summaries of the same stretch, and in a sentence what they were taken from.
 
-    Loads and accuracy are those of what all results hold; wear, trust and effort are those of each whole run.
+    Numbers of the motion, of the whole and of its joints, outputs and drives, are those of what all results
+    hold; wear, heat, trust and effort are those of each whole run.
     """
     alike, stretch = in_common(results)
     summaries = []
     for result, part in zip(results, alike, strict=True):
         whole, cut = summarise(result), summarise(part)
         known_here = known([*whole, *cut], str(whole["kind"]))
-        of_stretch = {name for name, key_result in known_here.items() if key_result.group in OF_STRETCH}
+        of_stretch = {
+            name
+            for name, key_result in known_here.items()
+            if key_result.group not in OF_RUN and not _OF_RUN.search(name)
+        }
         summaries.append(
             {name: value for name, value in whole.items() if name not in of_stretch}
             | {name: value for name, value in cut.items() if name in of_stretch}
         )
     return summaries, stretch
+
+
+def _of_lengths(summaries: Sequence[Mapping[str, Any]]) -> str:
+    """Return a sentence on the lengths of runs whose numbers are of each whole run, where these differ."""
+    times = [float(summary.get("simulated_time_s", 0.0)) for summary in summaries]
+    if max(times) <= (1.0 + NOTABLE) * min(times):
+        return ""
+    listed = ", ".join(f"{time:.4g} s" for time in times)
+    return f"All numbers are of each whole run, and these last differently: {listed}."
+
+
+def _of_whole_runs(summaries: Sequence[Mapping[str, Any]]) -> str:
+    """Return a sentence on the cycles of wear that runs went through, where these are far apart."""
+    cycles = [int(summary.get("wear_cycles", 0)) or 1 for summary in summaries]
+    if max(cycles) < _ALIKE * min(cycles):
+        return ""
+    listed = ", ".join(f"{number:,}" for number in cycles)
+    return f"Wear is of the whole runs, which went through different numbers of drive cycles: {listed}."
 
 
 def _about(run: ComparedRun, summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -52,7 +52,7 @@ def _first(results: list[xr.Dataset], ends: FloatArray, period: float) -> tuple[
     if np.ptp(ends) <= _SAME * period:
         return results, ""
     cut = [_between(result, 0.0, end) for result in results]
-    return cut, f"Loads and accuracy are of the first {end:.4g} s, which all runs hold."
+    return cut, f"Numbers of the motion are of the first {end:.4g} s, which all runs hold."
 
 
 def _last(results: list[xr.Dataset], ends: FloatArray, period: float) -> tuple[list[xr.Dataset], str]:
@@ -72,7 +72,7 @@ def _last(results: list[xr.Dataset], ends: FloatArray, period: float) -> tuple[l
     what = "the last drive cycle" if n == 1 else f"the last {n} drive cycles"
     return (
         alike,
-        f"Loads and accuracy are of {what} of each run, with the {held} that all of them hold there.",
+        f"Numbers of the motion are of {what} of each run, with the {held} that all of them hold there.",
     )
 
 

@@ -3,8 +3,10 @@ from __future__ import annotations
 import pytest
 
 from tribodyn.cli.main import main
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import write_run
-from tribodyn.report import ComparedRun, write_comparison
+from tribodyn.report import ComparedRun, differences, write_comparison
+from tribodyn.simulation import simulate
 
 WIDE = 'case = "vsv"\n[joint]\nclearance = "40 um"\n'
 NARROW = 'case = "vsv"\n[joint]\nclearance = "20 um"\n'
@@ -90,3 +92,52 @@ def test_bad_arguments_write_nothing(arguments, make_result, tmp_path, monkeypat
     assert main(["compare", *arguments]) == 2
     assert "allowed: " in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+PARTS = {
+    "joint_force_max_N": "force_max_N_",
+    "joint_force_lasting_N": "force_lasting_N_",
+    "peak_pressure_MPa": "peak_pressure_MPa_",
+    "offset_max_um": "offset_max_um_",
+    "wear_depth_max_nm": "wear_depth_nm_",
+    "friction_heat_J": "friction_heat_J_",
+}
+"""Numbers of a mechanism, and how those of its joints begin."""
+
+
+@pytest.fixture(scope="module")
+def driven():
+    """Return runs from the same start that last differently, and one that goes on from another."""
+    case = load_case("vsv-joints")
+    runs = [simulate(case.replace({"run.cycles": cycles})) for cycles in (1, 2)]
+    return [*runs, simulate(case.replace({"run.cycles": 1, "wear.cycles": 50}))]
+
+
+@pytest.mark.parametrize(("first", "second"), [(0, 1), (1, 2)])
+def test_a_whole_is_never_smaller_than_its_part(driven, first, second):
+    found = differences([driven[first], driven[second]])
+    assert "Numbers of the motion are of" in found.stretch
+    for summary in found.summaries:
+        for whole, part in PARTS.items():
+            parts = [value for name, value in summary.items() if name.startswith(part)]
+            assert parts
+            assert max(parts) <= summary[whole] * (1.0 + 1e-12), (whole, parts)
+
+
+def test_different_numbers_of_cycles_are_named_before_the_numbers(driven, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for name, run in zip("ab", (driven[0], driven[2]), strict=True):
+        write_run(run, tmp_path / name)
+    assert main(["compare", "a", "b"]) == 0
+    first = capsys.readouterr().out.splitlines()[0]
+    assert first.endswith("different numbers of drive cycles: 1, 50.")
+    page = (tmp_path / "comparison.html").read_text(encoding="utf-8")
+    assert page.index("numbers of drive cycles: 1, 50.") < page.index(
+        '<table class="compared">', page.index("Results</h2>")
+    )
+
+
+def test_runs_without_reversals_that_last_differently_are_named_so():
+    case = load_case("slider-crank")
+    found = differences([simulate(case.replace({"run.cycles": cycles})) for cycles in (1, 2)])
+    assert found.stretch.endswith("these last differently: 0.012 s, 0.024 s.")
