@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 ORBIT: Final = "orbit"
 _ORBITS: Final = ("trajectory", "orbits", "path")
-"""What different mechanisms call the figure of a shaft in its clearance circle."""
+"""Names of the figure of a shaft in its clearance circle, by mechanism."""
 
 
 @xr.register_dataset_accessor("tribodyn")  # type: ignore[no-untyped-call]
 class Accessor:
-    """What tribodyn knows of a result.
+    """Methods of tribodyn on a result.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ class Plots:
         return families | ({} if orbit is None else {ORBIT: orbit})
 
     def __getattr__(self, name: str) -> Callable[..., Figure]:
-        """Return what draws the figure of this name."""
+        """Return the drawing function of this name."""
         if name.startswith("_"):
             raise AttributeError(name)
         families = self._families()

@@ -1,4 +1,4 @@
-"""What holds beyond the ends of a table that a case follows: it repeats, or its first and last value hold."""
+"""Values beyond the ends of a table that a case follows: it repeats, or its first and last value hold."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SHOWN: Final = {"times": "s", "angles": "deg", "positions": "mm", "speeds": "ra
 
 
 def whole_turns(angles: tuple[float, ...]) -> int:
-    """Return how many whole turns a table over angles [rad] spans; 0 where it does not span whole turns."""
+    """Return the number of whole turns that a table over angles [rad] spans; 0 where they are not whole."""
     turns = (angles[-1] - angles[0]) / _TURN if angles else 0.0
     return round(turns) if abs(turns - round(turns)) < _ROUNDED else 0
 
@@ -84,7 +84,7 @@ class FollowedTable:
         )
 
     def left_over_time(self) -> Iterator[str]:
-        """Yield what is to be said of a table over time that does not reach over the run."""
+        """Yield remarks on a table over time that does not reach over the run."""
         if self.over != "times" or self.period:
             return
         room = _SAME * self.duration
@@ -95,7 +95,7 @@ class FollowedTable:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Where the coordinate that it follows stays inside it [SI]; everywhere if it repeats."""
+        """Range of the coordinate in which a table has values [SI]; everywhere if it repeats."""
         if self.period:
             return -math.inf, math.inf
         room = _SAME * (self.knots[-1] - self.knots[0])
@@ -152,7 +152,7 @@ def _ends(table: Any) -> tuple[str, str]:
 
 
 def of_tables(tables: Iterable[FollowedTable]) -> Remarks:
-    """Return which tables repeat, and which of those over time a run leaves."""
+    """Return the tables that repeat, and those over time that a run leaves."""
     tables = tuple(tables)
     left = tuple(text for table in tables for text in table.left_over_time())
     return Remarks(left, tuple(table.note() for table in tables if table.period))

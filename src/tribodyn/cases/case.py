@@ -1,4 +1,4 @@
-"""What every case has in common: frozen groups of keys, building from what a user wrote, changed copies.
+"""Common parts of all cases: frozen groups of keys, building from a user's values, changed copies.
 
 One file because groups, building and changed copies are one protocol that calls itself in a circle.
 """
@@ -134,7 +134,7 @@ class Case(Group):
     @model_validator(mode="wrap")
     @classmethod
     def _in_words(cls, values: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
-        """Say what is wrong as a user sees it, also where Python calls the class."""
+        """Report errors as a user sees them, also where Python calls the class."""
         asked = info.context or Asked(keys_of(cls), {}, cls.__name__)
         try:
             return handler(values)
@@ -153,7 +153,7 @@ class Case(Group):
         return {}
 
     def checks(self) -> tuple[Callable[[], object], ...]:
-        """Return what checks keys against each other; each raises an :class:`InputError`."""
+        """Return the cross-checks of keys; each raises an :class:`InputError`."""
         return ()
 
     def model_post_init(self, context: object, /) -> None:
@@ -177,7 +177,7 @@ class Case(Group):
         return 0
 
     def remarks(self) -> Remarks:
-        """Return what a user should know of values that do not contradict each other."""
+        """Return remarks on values that do not contradict each other."""
         unused = unused_parameters(self._given, self.parameters)
         words = "parameters.{} is used by no value of the case: use it in an expression, or remove it."
         return Remarks(tuple(words.format(name) for name in unused))
@@ -204,7 +204,7 @@ class Case(Group):
         return found
 
     def given(self, path: str) -> object:
-        """Return what was written for a key; None where nothing was."""
+        """Return the given text of a key; None where none was given."""
         return self._given[path].value if path in self._given else None
 
     @property

@@ -1,4 +1,4 @@
-"""What a case chooses: all its settings but numbers."""
+"""Choices of a case: all its settings but numbers."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ COLUMN: Final = "column"
 VALUES: Final = "values"
 TIMES: Final = "times"
 KNOTS: Final = {TIMES: "s", "angles": "rad", "positions": "m", "speeds": "rad/s", "velocities": "m/s"}
-"""What the first column may hold, by the key that takes it, with its unit."""
+"""Quantities of the first column, by the key that takes it, with their units."""
 LARGEST: Final = 20_000_000
 MOST_ROWS: Final = 10_000
 MOST_OF_MAP: Final = 50_000
@@ -54,7 +54,7 @@ class TableProblem(ValueError):
 
 
 def with_tables_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
-    """Return what was given with the numbers of CSV files in the place of their names.
+    """Return the given values with the numbers of CSV files in the place of their names.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ def read_entry(key: Key, entry: Entry) -> Value:
 
 
 def refused(key: Key, entry: Entry, why: str = "") -> str:
-    """Say what was given, why it cannot be, and what can."""
+    """Report the value, the reason of its refusal, and the allowed values."""
     reason = f": {why}" if why else ""
     hint = meant(entry.value, key.choices) if isinstance(entry.value, str) else ""
     return f"given {shown(entry.value)}{reason}; allowed: {key.allowed}{hint}"

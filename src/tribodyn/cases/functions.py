@@ -23,7 +23,7 @@ _CLOSE: Final = {1: 1.0e-6, 2: 1.0e-5}
 
 @dataclass(frozen=True)
 class Doors:
-    """Where functions go in a kind of case.
+    """Keys of a kind of case that take functions.
 
     Attributes
     ----------
@@ -184,7 +184,7 @@ def _missed(
     values: Any,
     key: str,
 ) -> float:
-    """Return what the spline misses half way between rows, over the largest value."""
+    """Return the error of the spline half way between rows, over the largest value."""
     import numpy as np
     from scipy.interpolate import CubicSpline
 

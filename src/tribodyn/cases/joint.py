@@ -54,7 +54,7 @@ class LinerKeys(Group):
 
 
 class FormKeys(Group):
-    """What trunnion and bushing stand back from cylinders; the clearance is that in the middle."""
+    """Deviations of trunnion and bushing from cylinders; the clearance is that in the middle."""
 
     crown: float = quantity(
         "0 um", "drop of a parabola at the ends, of both surfaces together", ASSUMED, ge=0

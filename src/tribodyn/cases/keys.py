@@ -32,7 +32,7 @@ from tribodyn.cases.units import (
 from tribodyn.core.quoting import brief
 
 Value: TypeAlias = float | int | bool | str | tuple[float, ...] | tuple[str, ...]
-"""What a key can hold once read: numbers in SI units, switches, names; one or several."""
+"""Value of a key once read: a number in SI units, a switch or a name; one or several."""
 
 ASSUMED = "assumed"
 """Source of a value that the paper does not give."""
@@ -118,7 +118,7 @@ class Key:
 
     @property
     def allowed(self) -> str:
-        """What the key may hold, in words."""
+        """Allowed values of the key, in words."""
         if self.kind in ("vector", "series") and self.unit:
             many = "three numbers" if self.length else "a list of numbers"
             return f"{many} with units of {dimension(self.unit)}, such as {self.example}"
@@ -140,7 +140,7 @@ class Key:
         return words[self.kind] + (f", {self.limits}" if self.limits else "")
 
     def read(self, value: object, *, text: bool) -> Value:
-        """Turn what a user wrote into the value that the model holds.
+        """Turn a user's value into the value that the model holds.
 
         Parameters
         ----------
@@ -319,13 +319,13 @@ def toml_string(value: str) -> str:
 
 
 def _without_unit(key: Key, value: object) -> str:
-    """Show how a number given without a unit would be spelled with one, the unit guessed from its size."""
+    """Return a number given without a unit as spelled with one, guessed from its size."""
     likely = likely_quantity(str(value).strip(), key.example, key.unit)
     return f'the unit is missing, probably {_as_written(key)} = "{likely}"'
 
 
 def _list_without_unit(key: Key, numbers: Sequence[object]) -> str:
-    """Show how numbers given without a unit would be spelled with one, guessed from the largest."""
+    """Return numbers given without a unit as spelled with one, guessed from the largest."""
     example = [str(part) for part in elements(key.example, key.unit) or [""]]
     typical = max(example, key=lambda text: abs(to_si(text, key.unit)))
     largest = max((str(number).strip() for number in numbers), key=lambda text: abs(float(text)))
@@ -350,7 +350,7 @@ def _is_bare(value: object) -> bool:
 
 
 def _not_tiny(value: float) -> float:
-    """Refuse what is so near to zero that quotients and powers of it are no numbers."""
+    """Refuse a value so near to zero that quotients and powers of it are no numbers."""
     if 0.0 < abs(value) < _LEAST:
         raise ValueProblem(f"the number is too small to compute with; the least is {_LEAST:g} in SI units")
     return value

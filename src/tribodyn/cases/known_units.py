@@ -57,4 +57,4 @@ EVERYDAY: Final = frozenset(
 )
 """Names in these units."""
 ZEROS: Final = {"degC": "273.15"}
-"""Where units count from that do not count from zero, in base units."""
+"""Origins of units that do not count from zero, in base units."""

@@ -123,7 +123,7 @@ def parse(
 
 @dataclass(frozen=True)
 class Known:
-    """What the key ``case`` of a file may name.
+    """Allowed values of the key ``case`` of a file.
 
     Attributes
     ----------
@@ -142,7 +142,7 @@ class Known:
 
     @property
     def names(self) -> list[str]:
-        """What the key may be, files aside."""
+        """Allowed values of the key, files aside."""
         return list(dict.fromkeys([*self.kinds, *self.built_in]))
 
 
@@ -196,7 +196,7 @@ def _likeliest(paths: Iterable[str], kinds: Kinds) -> str:
 
 
 def _base(name: str, entry: Entry, known: Known) -> tuple[type[Case], dict[str, Entry]]:
-    """Return what the case file gives that another one begins with."""
+    """Return the values of the case file that another one begins with."""
     path = os.fspath((entry.folder or Path()) / name)
     if path in known.files:
         raise InputError(
@@ -209,7 +209,7 @@ def _base(name: str, entry: Entry, known: Known) -> tuple[type[Case], dict[str, 
 
 
 def _given(name: str, case: BuiltIn) -> dict[str, Entry]:
-    """Return what a built-in case gives."""
+    """Return the values of a built-in case."""
     values = {"case": case.model.kind(), **case.given}
     return {
         path: Entry(value, f"built-in case {name}", built_in=True, origin=case.origins.get(path, ""))
@@ -266,7 +266,7 @@ def _hints(text: str) -> Iterator[str]:
 
 
 def _with_quotes(key: str, value: str) -> str:
-    """Say how a value would be right that lacks its quotes or its decimal point."""
+    """Suggest the right spelling of a value that lacks its quotes or its decimal point."""
     if re.fullmatch(r"[+-]?\d+,\d+", value):
         return f"decimals stand behind a point: {key} = {value.replace(',', '.')}"
     kind = "a quantity" if value[0] in "+-.0123456789" else "a name"

@@ -26,7 +26,7 @@ class BodyLoad(NamedGroup):
     """A force and a moment on a body."""
 
     SPEED_OF: ClassVar = {"force": "velocities", "moment": "speeds"}
-    """What a table over the speed that a force or a moment opposes runs over."""
+    """Quantity of a table over the speed that a force or a moment opposes."""
 
     force: ForceMap | None = None
     moment: TorqueMap | None = None

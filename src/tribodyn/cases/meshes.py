@@ -23,7 +23,7 @@ LARGEST: Final = 5_000_000
 
 
 def with_meshes_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
-    """Return what was given with the corners of triangles in the place of files' names.
+    """Return the given values with corners of triangles in the place of files' names.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Messages when keys are unknown or values do not go together, and of values that do."""
+"""Messages on unknown keys, on values that contradict each other, and on doubtful values."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ CROSS_CHECK: Final = "cross_check"
 def unknown(
     path: str, keys: Mapping[str, Key], declared: Mapping[str, Key], source: str, number: int
 ) -> InputError:
-    """Return what says that there is no such key, and which one may have been meant.
+    """Return the message that a key does not exist, with a suggestion.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def _shown(path: str) -> str:
 
 
 def _nearest(path: str, keys: Mapping[str, Key]) -> str:
-    """Return what was probably meant: a key of the same table, a table by another word, the same name.
+    """Return the key that was probably meant: of the same table, a table by another word, the same name.
 
     Words of other programs come before names with words in common, and these before names that look alike.
     """
@@ -184,7 +184,7 @@ def _nearest_valid(*paths: str) -> str:
 
 @dataclass(frozen=True)
 class Remarks:
-    """What a case says of itself, one sentence each: warnings, and what to know when its numbers are read."""
+    """Notes on a case, one sentence each: warnings, and remarks that help to read its numbers."""
 
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
@@ -200,7 +200,7 @@ class Disagreement(InputError):
 
 @dataclass(frozen=True)
 class Asked:
-    """What a case is built from.
+    """Values from which a case is built.
 
     Attributes
     ----------
@@ -218,7 +218,7 @@ class Asked:
 
 
 def problems(error: ValidationError, asked: Asked) -> list[InputError]:
-    """Turn what pydantic found into errors for users, one each."""
+    """Turn the errors of pydantic into errors for users, one each."""
     return [problem for found in error.errors() for problem in _problem(found, asked)]
 
 

@@ -1,4 +1,4 @@
-"""What is said of surfaces whose values do not contradict each other, and yet may not belong together."""
+"""Remarks on surfaces whose values do not contradict each other, and yet may not belong together."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NOTHING: Final[Mapping[str, Sequence[str]]] = MappingProxyType({})
 
 
 def of_surfaces(case: Case, prefix: str = "", beside: Mapping[str, Sequence[str]] = _NOTHING) -> Remarks:
-    """Return what is to be said of a set of surfaces.
+    """Return remarks on a set of surfaces.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def _of_heights(case: Case, prefix: str) -> Iterator[str]:
 
 
 def _of_law(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
-    """Yield which parameters of other contact laws were given values that do nothing."""
+    """Yield the parameters of other contact laws that were given values without an effect."""
     from tribodyn.contact import LAWS, options_of_others
 
     law = str(case.at(f"{prefix}contact.law"))

@@ -1,4 +1,4 @@
-"""What cases with one pair of rough surfaces have in common."""
+"""Common parts of cases with one pair of rough surfaces."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class RoughCase(Case):
         return ()
 
     def remarks(self) -> Remarks:
-        """Return what is to be said of the two surfaces and of tables."""
+        """Return remarks on the two surfaces and on tables."""
         return super().remarks() + of_surfaces(self) + of_tables(self.followed())
 
     def rough_clearances(self) -> dict[str, float]:
@@ -69,7 +69,7 @@ class BushingCase(RoughCase):
         return super().resolve(given) | at_temperature
 
     def derived(self) -> dict[str, str]:
-        """Return which properties of the material follow from the temperature."""
+        """Return the properties of the material that follow from the temperature."""
         return self.temperature.properties.derived()
 
     def checks(self) -> tuple[Callable[[], object], ...]:

@@ -44,7 +44,7 @@ _LONGEST_ORIGIN: Final = 200
 
 @dataclass(frozen=True)
 class Equivalent:
-    """What a case needs of one rough surface or two, with where it comes from.
+    """Roughness and asperities of one rough surface or two, with their origin.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ def equivalent(*surfaces: MeasuredSurface) -> Equivalent:
 
 
 def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
-    """Return what was given with the numbers of scans in the place of their files.
+    """Return the given values with the numbers of scans in the place of their files.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> di
 
 
 def tables_of_surfaces(keys: Iterable[str]) -> list[str]:
-    """Return what stands before the paths of sets of surfaces: nothing, or a table and its dot."""
+    """Return the prefix of the paths of sets of surfaces: nothing, or a table and its dot."""
     return [path.removesuffix(COMBINED) for path in keys if path.endswith(COMBINED)]
 
 
@@ -196,7 +196,7 @@ def _treatment(values: dict[str, Any], entries: Mapping[str, Entry]) -> Treatmen
 
 
 def _in_words(treatment: Treatment) -> str:
-    """Return how a scan was treated, which is half of what its numbers mean."""
+    """Return the treatment of a scan, which is half of the meaning of its numbers."""
     ends = (("from", treatment.short_cutoff), ("to", treatment.long_cutoff))
     waves = [f"{word} {from_si(cutoff, 'um')}" for word, cutoff in ends if cutoff is not None]
     kept = f"{treatment.filter} filter, wavelengths {' '.join(waves)}" if waves else "all wavelengths"

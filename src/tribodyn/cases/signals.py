@@ -94,7 +94,7 @@ class _Force(Group):
 
 
 class _TableRows(NamedGroup):
-    """What all tables have beside their values and what these stand over."""
+    """Keys of all tables beside their values and knots."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(itertools.product((TABLE,), (VALUES, *KNOTS)))
 
@@ -113,7 +113,7 @@ class _TableRows(NamedGroup):
         values: Numbers | None
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+        """Check keys against each other."""
         self._check_given()
         try:
             self._check_rows()
@@ -135,17 +135,17 @@ class _TableRows(NamedGroup):
 
     @property
     def axes(self) -> dict[str, Numbers]:
-        """What a table or a map stands over, in the order of :data:`~tribodyn.cases.columns.KNOTS`."""
+        """Knots of a table or a map by name, in the order of :data:`~tribodyn.cases.columns.KNOTS`."""
         return {name: tuple(found) for name in KNOTS if (found := getattr(self, name, None))}
 
     @property
     def over(self) -> str:
-        """Which of :data:`~tribodyn.cases.columns.KNOTS` a table runs over; empty without one."""
+        """Members of :data:`~tribodyn.cases.columns.KNOTS` that a table runs over; empty without one."""
         return next(iter(self.axes), "")
 
     @property
     def knots(self) -> Numbers:
-        """Where a table has values, SI units."""
+        """Knots of a table, SI units."""
         return tuple(getattr(self, self.over)) if self.over else ()
 
     def curve(self, *, closed: bool = False) -> Signal:
@@ -240,7 +240,7 @@ class LineLoadTable(_TableRows):
 
 
 class _Signal(_Timed):
-    """What all signals have beside their value."""
+    """Keys of all signals beside their value."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
         *itertools.product(_FORMULA, (TABLE, VALUES, *KNOTS)),
@@ -291,7 +291,7 @@ class _Signal(_Timed):
         return whole_turns(tuple(self.angles or ()))
 
     def signal(self) -> Signal:
-        """Return what kernels are given."""
+        """Return the data of the kernels."""
         from tribodyn.core.signals import constant, sinusoid, turning
 
         mean, phase, frequency = self.value or 0.0, self.phase or 0.0, self.frequency or 0.0
@@ -320,7 +320,7 @@ _MAPPED: Final = (
     ("angles", "speeds"),
     ("positions", "velocities"),
 )
-"""Over what a map may stand: time and another quantity, or a coordinate and its rate."""
+"""Quantities over which a map may be given: time and another one, or a coordinate and its rate."""
 
 
 class _Mapped(_Signal):
@@ -368,7 +368,7 @@ class _Mapped(_Signal):
         return super().frequency
 
     def signal(self) -> Signal:
-        """Return what kernels are given."""
+        """Return the data of the kernels."""
         from tribodyn.core.signals import pulse
 
         if self.pulse is None or self.length is None:

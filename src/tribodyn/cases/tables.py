@@ -205,7 +205,7 @@ def as_declared(path: str, declared: Mapping[str, Key]) -> str:
 
 
 def _before_name(path: str) -> str | None:
-    """Return what stands before the first name that a user chooses; None if there is none."""
+    """Return the path before the first name that a user chooses; None if there is none."""
     before, name, _ = path.partition(ANY_NAME)
     return before if name else None
 

@@ -28,7 +28,7 @@ _FOLLOWING: Final = {
     "friction_coefficient": "joint.friction_coefficient",
     "specific_wear_rate": "wear.specific_wear_rate",
 }
-"""What a table over the temperature may hold, and the key that takes the value at that of the bushing."""
+"""Properties of a table over the temperature, and the key that takes the value at that of the bushing."""
 
 
 class InCycles(Protocol):
@@ -48,7 +48,7 @@ class InCycles(Protocol):
 
 
 def time_followed(case: InCycles) -> float:
-    """Return how long temperatures are followed [s]: over the run, or all cycles of its campaign."""
+    """Return the time over which temperatures are followed [s]: the run, or all cycles of its campaign."""
     if not case.campaign_cycles or case.period is None:
         return case.duration
     return (case.settling_cycles + case.campaign_cycles + 1) * case.period
@@ -104,7 +104,7 @@ class PropertiesKeys(Group):
 
 @dataclass(frozen=True)
 class Names:
-    """What keys begin with that a refusal names: of the joint, of its temperatures, of its surfaces."""
+    """Prefixes of keys in messages: of the joint, of its temperatures, of its surfaces."""
 
     clearance: str = "joint.clearance"
     joint: str = "joint."
@@ -263,7 +263,7 @@ class ChangingTemperature(Temperature):
     def opening(
         self, cold: BushingGeometry, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
     ) -> Signal | None:
-        """Return what the clearance has more than at the start, over time [m, s]; None where it is constant.
+        """Return the growth of the clearance since the start, over time [m, s]; None where it is constant.
 
         Arguments as for :meth:`hot`.
 
@@ -287,7 +287,7 @@ class ChangingTemperature(Temperature):
     def play_opening(
         self, length: float, play: float, surfaces: Surfaces, names: Names = Names()
     ) -> Signal | None:
-        """Return what the play along the axis has more than at the start, over time [m, s]; None if constant.
+        """Return the growth of the play along the axis since the start, over time [m, s]; None if constant.
 
         Parameters
         ----------

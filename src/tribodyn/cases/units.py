@@ -145,7 +145,7 @@ def to_si(text: str, like: str) -> float:
 
 
 def base_of(unit: str) -> str:
-    """Return what a unit that a user wrote is in SI base units: ``kilogram * meter / second ** 2``."""
+    """Return a unit in SI base units: ``kilogram * meter / second ** 2``."""
     return _known(unit).base
 
 
@@ -174,7 +174,7 @@ def rms_roughness(text: str) -> float:
 
 
 def _meant(scale: _Scale, number: Decimal, unit: str, like: str) -> str:
-    """Return what to write for a kinematic viscosity and for turns in some time, else nothing."""
+    """Return a correction for a kinematic viscosity and for turns in some time, else nothing."""
     wanted, given = dimension(like), scale.base
     if wanted == "viscosity" and given == _scale("m^2/s").base:
         return f': this one is kinematic; say the density, as in "{number:f} {unit} at 870 kg/m^3"'
@@ -265,7 +265,7 @@ def likely_quantity(number: str, example: str, unit: str) -> str:
 
 
 def _apart(a: float, b: float) -> float:
-    """Return how many powers of e lie between the sizes of two numbers."""
+    """Return the number of powers of e between the sizes of two numbers."""
     return abs(math.log(abs(a)) - math.log(abs(b)))
 
 
@@ -293,7 +293,7 @@ def _split(text: str) -> tuple[Decimal, str]:
 
 
 class _Scale(NamedTuple):
-    """What a unit is in SI base units: zero + factor times the number, in ``base``."""
+    """Unit in SI base units: zero + factor times the number, in ``base``."""
 
     factor: Decimal
     zero: Decimal
@@ -305,7 +305,7 @@ class _Scale(NamedTuple):
 
 
 def _known(unit: str) -> _Scale:
-    """Return what a unit is that a user wrote."""
+    """Return the definition of a unit that a user wrote."""
     unit = _BARE_POWER.sub(r"^\1", unit)
     if not _UNIT_PATTERN.fullmatch(unit):
         raise UnitProblem(

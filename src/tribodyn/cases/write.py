@@ -167,7 +167,7 @@ def _example(key: Key) -> str:
 
 
 def comment(key: Key, *, own: bool = False) -> str:
-    """Return what a key means, what it may hold and where its default comes from, on one line.
+    """Return meaning, allowed values and source of a key, on one line.
 
     A value of a user's ``own`` does not come from there.
     """

@@ -29,7 +29,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def execute(args: Namespace) -> int:
-    """Compile what is not compiled yet; say how long each case took."""
+    """Compile the missing kernels; report the time of each case."""
     from mebdf.compiled.cache import folder
     from tribodyn.kernels.jit import SOURCES
     from tribodyn.mechanisms.catalogue import built_in, load_case

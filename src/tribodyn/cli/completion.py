@@ -95,7 +95,7 @@ def _values(key: Key | None) -> Iterator[str]:
 
 
 def _names(module: str, attribute: str) -> Callable[..., list[str]]:
-    """Return what completes the names of a family."""
+    """Return a completer of the names of a family."""
 
     def names(**_: object) -> list[str]:
         return list(getattr(importlib.import_module(module), attribute))
@@ -113,4 +113,4 @@ COMPLETERS: Final[dict[str, Callable[..., list[str]]]] = {
     "template": _templates,
     "shell": _names("tribodyn.cli.completion", "SHELLS"),
 }
-"""What completes an argument, by its name in the parser; choices and files complete themselves."""
+"""Completers of arguments, by their names in the parser; choices and files complete themselves."""

@@ -1,4 +1,4 @@
-"""What the command prints, and where: results on stdout, everything about the work on stderr."""
+"""Output of commands: results on stdout, everything about the work on stderr."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tribodyn.core.quoting import on_one_line
 
 @dataclass(frozen=True)
 class Console:
-    """Where messages go.
+    """Destinations of messages.
 
     Attributes
     ----------
@@ -34,13 +34,13 @@ class Console:
         return cls(quiet=args.quiet, json=args.json)
 
     def say(self, text: str) -> None:
-        """Print what the user asked for."""
+        """Print the result."""
         printed(text)
         if not (self.quiet or self.json):
             print(text)
 
     def note(self, text: str) -> None:
-        """Print how the work is going."""
+        """Print the progress of the work."""
         printed(text)
         if not self.quiet:
             _on_stderr(text)

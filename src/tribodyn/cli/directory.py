@@ -13,7 +13,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 CHECKPOINT: Final = "checkpoint.npz"
-"""Where a wear campaign is kept until its result is written."""
+"""Folder of a wear campaign until its result is written."""
 RESULT: Final = "result.nc"
 FILES: Final = (RESULT, "summary.json", "case.toml", "report.html", CHECKPOINT)
 FIGURES: Final = "figures"
@@ -108,7 +108,7 @@ class OutputDirectory:
         return self.path / CHECKPOINT
 
     def _forget(self) -> None:
-        """Remove what was made, as far as it is still empty."""
+        """Remove new folders, as far as they are still empty."""
         for path in self._made:
             with contextlib.suppress(OSError, ValueError):
                 path.rmdir()
@@ -143,7 +143,7 @@ def _locked(handle: int) -> bool:
 
 
 def _missing_parents(path: Path) -> list[Path]:
-    """Return what making `path` will make, innermost first."""
+    """Return the folders that making `path` will make, innermost first."""
     with contextlib.suppress(OSError, ValueError):
         return [place for place in (path, *path.parents) if not place.exists()]
     return []

@@ -87,7 +87,7 @@ def _printer(console: Console) -> Callable[[Arrival], None]:
 
 
 def _tell(search: Search, root: float, console: Console) -> None:
-    """Print what was tried and what was found."""
+    """Print the tried values and the answer."""
     from tribodyn.cases.keys import VALUE
 
     asked, limit = search.question, search.question.until

@@ -55,7 +55,7 @@ class Interruption:
 
 @dataclass
 class _Met:
-    """What a signal meets.
+    """Handling of a signal.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a command did and when: on stderr with ``-v``, and in a file with ``--log``.
+"""Log of a command's work with times: on stderr with ``-v``, and in a file with ``--log``.
 
 The file holds all that was printed, too, a line each, after its time.
 """
@@ -68,12 +68,12 @@ def _handlers(args: Namespace) -> Iterator[logging.Handler]:
 
 @contextmanager
 def stage(name: str) -> Iterator[None]:
-    """Log how long a part of the work takes."""
+    """Log the time of a part of the work."""
     began = time.perf_counter()
     yield
     LOGGER.debug("%s: %.2f s", name, time.perf_counter() - began)
 
 
 def printed(text: str) -> None:
-    """Log what is printed."""
+    """Log printed text."""
     LOGGER.info("%s", on_one_line(text))

@@ -26,7 +26,7 @@ class Command(Protocol):
     HELP: str
 
     def add_arguments(self, parser: argparse.ArgumentParser, /) -> None:
-        """Declare what follows the name of the command."""
+        """Declare the arguments after the name of the command."""
 
     def execute(self, args: argparse.Namespace, /) -> int:
         """Do it and return the exit status."""
@@ -79,7 +79,7 @@ _EXAMPLES: Final = {
     "compile": "tribodyn compile vsv slider-crank.toml",
     "completion": "tribodyn completion bash",
 }
-"""How the help of each command ends."""
+"""End of the help of each command."""
 _EPILOG: Final = """\
 examples:
   tribodyn run vsv
@@ -102,7 +102,7 @@ class _Parser(argparse.ArgumentParser):
         raise InputError(f"{brief(message, 2 * LONGEST)}; see `{self.prog} --help`")
 
     def understood(self, arguments: Sequence[str]) -> argparse.Namespace:
-        """Return what the arguments say, or raise what is wrong with them, with what was probably meant."""
+        """Return the parsed arguments, or raise their error, with a suggestion."""
         name = next((argument for argument in arguments if not argument.startswith("-")), None)
         if name is not None and name not in COMMANDS:
             near = "--help" if name == "help" else closest(name, COMMANDS)
@@ -222,7 +222,7 @@ def _logged(args: argparse.Namespace) -> int:
 
 
 def _complain(error: BaseException, *, as_json: bool) -> None:
-    """Say what went wrong on stderr, a line for each fault, and with ``--json`` on stdout, too."""
+    """Report errors on stderr, a line for each fault, and with ``--json`` on stdout, too."""
     faults = error.faults if isinstance(error, InputError) else (error,)
     for fault in faults:
         complain(_in_words(fault))
@@ -233,7 +233,7 @@ def _complain(error: BaseException, *, as_json: bool) -> None:
 
 
 def _in_words(error: BaseException) -> str:
-    """Return what a user needs to know of an error."""
+    """Return the message of an error for a user."""
     if isinstance(error, TribodynError):
         return str(error)
     if isinstance(error, KeyboardInterrupt):

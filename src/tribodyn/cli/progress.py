@@ -1,4 +1,4 @@
-"""How far a run has come: a bar on a terminal, a line every tenth elsewhere; and that code is compiled."""
+"""Progress of a run: a bar on a terminal, a line every tenth elsewhere; also of the compilation."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _PARTS: Final = 10
 
 @dataclass(frozen=True)
 class Measure:
-    """What is counted.
+    """Counted quantity.
 
     Attributes
     ----------
@@ -150,7 +150,7 @@ class Bar:
 
 
 def progress(total: float, console: Console, measure: Measure = SIMULATED) -> Progress:
-    """Return what shows progress here.
+    """Return the right display of progress.
 
     Parameters
     ----------

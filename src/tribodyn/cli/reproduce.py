@@ -42,7 +42,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def execute(args: Namespace) -> int:
-    """Make what is asked for."""
+    """Make the requested figures and tables."""
     from tribodyn.papers.cheng_2022.figures import FIGURES, FORMULATIONS, Runs
 
     wanted = _wanted(args.what or [ALL], list(FIGURES))
@@ -65,7 +65,7 @@ def execute(args: Namespace) -> int:
 
 
 def _wanted(given: list[str], figures: list[str]) -> list[str]:
-    """Return what to make, each once, in the order of the paper."""
+    """Return the names to make, each once, in the order of the paper."""
     names = [*figures, CLAIMS]
     for name in given:
         if name not in (*names, ALL):

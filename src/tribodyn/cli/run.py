@@ -145,7 +145,7 @@ def _simulate(case: Case, directory: OutputDirectory, console: Console, stop: In
 
 
 def _progress(case: Case, console: Console) -> Progress:
-    """Return what shows progress: simulated time, or the cycles of a wear campaign."""
+    """Return the display of progress: simulated time, or the cycles of a wear campaign."""
     if case.campaign_cycles:
         return progress(case.campaign_cycles, console, CYCLES)
     return progress(case.duration, console)
@@ -194,13 +194,13 @@ def _tell(summary: dict[str, Any], console: Console) -> None:
 
 
 def _say_where(path: Path, console: Console) -> None:
-    """Print where to look."""
+    """Print the places of the results."""
     report = path / REPORT
     console.say(f"look at {report if report.exists() else path / RESULT}; everything is in {path}{os.sep}")
 
 
 def _stopped(dataset: xr.Dataset, case: Case, failure: str, path: Path) -> str:
-    """Say when a run stopped, why, and where the rest is."""
+    """Report the time and reason of a stop, and the place of the rest."""
     if case.campaign_cycles:
         return (
             f"the wear campaign stopped after {dataset.attrs.get('wear_cycles_reached', 0)} of "

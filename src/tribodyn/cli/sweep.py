@@ -188,7 +188,7 @@ def _tls(args: Namespace) -> Tls | None:
 
 
 def _variations(texts: list[str]) -> dict[str, str]:
-    """Return what varies, by path."""
+    """Return the varied values, by path."""
     variations: dict[str, str] = {}
     for text in texts:
         path, equals, values = (without_quotes(part) for part in typed(text).partition("="))
@@ -282,7 +282,7 @@ def _tell(path: Path, shown: Sequence[str], console: Console) -> None:
 
 
 def _warn(dataset: xr.Dataset) -> None:
-    """Say how many points warn about themselves, with the words of the first."""
+    """Report the number of points with warnings of their own, with the words of the first."""
     texts = [text for text in dataset["warnings"].values.ravel().tolist() if text]
     if texts:
         count = f"{len(texts)} of {dataset.attrs['points_in_all']} points"
@@ -290,7 +290,7 @@ def _warn(dataset: xr.Dataset) -> None:
 
 
 def _lost(dataset: xr.Dataset, lost: int) -> str:
-    """Say how many points have no result, and how to get them."""
+    """Report the number of points without a result, and the way to get them."""
     reason = next(text for text in dataset["failure"].values.ravel().tolist() if text)
     return (
         f"{lost} of {dataset.attrs['points_in_all']} points have no result ({reason}); the same command goes "

@@ -81,7 +81,7 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
 
 
 def _room(taken: int) -> int:
-    """Return how many columns fit into the terminal beside what is taken, at least one."""
+    """Return the number of columns that fit into the terminal beside a used width, at least one."""
     return max((shutil.get_terminal_size((120, 40)).columns - taken) // (_COLUMN + 2), 1)
 
 
@@ -129,7 +129,7 @@ def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iter
 
 
 def _cautions(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    """Say which points have numbers that should not be used."""
+    """Report the points with numbers that should not be used."""
     from tribodyn.results.summary import caution
 
     doubtful = [point for point in points if point.get("doubtful")]
@@ -141,7 +141,7 @@ def _cautions(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
 
 
 def _limits(record: Mapping[str, Any]) -> Iterator[str]:
-    """Say how many points keep each limit."""
+    """Report the number of points that keep each limit."""
     from tribodyn.mechanisms.results import known
 
     for entry in record.get("limits", []):
@@ -159,7 +159,7 @@ def _limits(record: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _sensitivities(record: Mapping[str, Any], shown: Sequence[str]) -> Iterator[str]:
-    """Say what share of the variance of each number each parameter makes, alone and in all."""
+    """Report the share of each parameter in the variance of each number, alone and in all."""
     found = record.get("sensitivities", {})
     for name, label in _key_results(shown or list(found), record["kind"], every=bool(shown)).items():
         if name not in found:

@@ -1,4 +1,4 @@
-"""What laws that sum over Gaussian asperities share: regimes, contact count, and where h is measured from.
+"""Common parts of laws that sum over Gaussian asperities: regimes, contact count, and origin of h.
 
 Separations are counted from the mean of the asperity heights, whose spread is the σ of the surfaces, unless
 ``separation_from`` is ``"surface"``: then h is counted from the mean of the *surface* heights, which
@@ -27,7 +27,7 @@ SEPARATIONS: Final = {
     "asperities": "from the mean of the asperity heights, which spread by sigma",
     "surface": "from the mean of the surface heights; the asperities spread by less",
 }
-"""What h may be counted from."""
+"""Origins of h."""
 
 
 class Regime(NamedTuple):

@@ -1,4 +1,4 @@
-"""What a contact law is."""
+"""Base class of contact laws."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class ContactLaw(ABC):
     """One line for people."""
     source: ClassVar[str]
     validity: ClassVar[str]
-    """Where the law holds, one sentence."""
+    """Range in which the law holds, one sentence."""
     knows_restitution: ClassVar[bool] = False
     """Whether the law has a restitution of its own when none is asked for."""
 

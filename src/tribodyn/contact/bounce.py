@@ -27,7 +27,7 @@ _LONGEST: Final = 1.0e9
 
 @dataclass(frozen=True)
 class Bounce:
-    """What one bounce gave.
+    """Result of one bounce.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How much warmer a sliding contact of asperities is than the surfaces around it: an estimate.
+"""Flash temperature: the rise of a sliding contact of asperities above its surroundings, an estimate.
 
 A round spot of radius a, over which the flux q is spread evenly, moves at the speed V over a half-space of
 conductivity k and diffusivity κ. At rest its centre is q a/k warmer; where it passes faster than heat spreads
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Conductor:
-    """What a body does with heat.
+    """Thermal properties of a body.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ def resistance(body: Conductor, radius: float, speed: float) -> float:
 def flash_temperature(
     flux: float, radius: float, speed: float, standing: Conductor, passing: Conductor
 ) -> float:
-    """Return how much warmer a spot is than the surfaces around it [K].
+    """Return the temperature rise of a spot above the surfaces around it [K].
 
     The heat goes into both bodies as their largest temperatures are the same. Valid where spots are far apart
     and each lasts longer than heat takes to spread in it, a²/κ: for shorter ones this is an upper bound.

@@ -107,7 +107,7 @@ class Rebound:
 def rebound(
     sphere: ImpactingSphere, speed: float, incidence: float, law: TangentialLaw, *, steps: int = STEPS
 ) -> Rebound:
-    """Return how a sphere without spin leaves a plate.
+    """Return the motion of a sphere without spin after it leaves a plate.
 
     Parameters
     ----------

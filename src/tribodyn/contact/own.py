@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
 OwnLaw: TypeAlias = type[ContactLaw] | Callable[[FloatArray], Any]
-"""What a user may give as a law: a class, or a function that returns the pressure [Pa] at an array of h*."""
+"""User-defined law: a class, or a function that returns the pressure [Pa] at an array of h*."""
 
 _FACTS = ("name", "title", "source", "validity")
 
@@ -49,7 +49,7 @@ def law_of_user(given: OwnLaw) -> type[ContactLaw]:
 
 
 def check_law(kind: object) -> None:
-    """Refuse what is no class of a contact law, or does not say what it is."""
+    """Refuse a class that is no contact law, or lacks a name or a source."""
     if not (isinstance(kind, type) and issubclass(kind, ContactLaw)):
         raise InputError("a contact law is a subclass of tribodyn.contact.ContactLaw", key="law")
     missing = [fact for fact in _FACTS if not isinstance(getattr(kind, fact, None), str)]

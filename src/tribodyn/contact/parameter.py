@@ -13,7 +13,7 @@ _KEY = "parameter"
 
 @dataclass(frozen=True)
 class Parameter:
-    """What a law says about a parameter of its own.
+    """Declaration of a law's parameter.
 
     Attributes
     ----------

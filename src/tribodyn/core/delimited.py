@@ -1,4 +1,4 @@
-"""What all text files of numbers have in common: comments, separators, decimal commas, names with units.
+"""Common syntax of text files of numbers: comments, separators, decimal commas, names with units.
 
 Scans (:mod:`tribodyn.surfaces.text`) are read block by block and may be large; tables and maps of a case
 (:mod:`tribodyn.cases.columns`) are small and keep the digits as they stand. Both ask here what a line means.
@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import Final
 
 SEPARATORS: Final = (";", "\t", ",")
-"""What may stand between the fields of a line; the first one that is found does."""
+"""Separators of the fields of a line; the first one that occurs counts."""
 _COMMENTS: Final = ("#", "%", "//")
-"""How a line begins that is a comment."""
+"""Beginning of a comment line."""
 
 
 def is_comment(text: str) -> bool:
@@ -20,7 +20,7 @@ def is_comment(text: str) -> bool:
 
 
 def separator_of(text: str) -> str:
-    """Return what stands between the fields of a line."""
+    """Return the separator of the fields of a line."""
     return next((mark for mark in SEPARATORS if mark in text), ",")
 
 

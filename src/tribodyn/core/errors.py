@@ -9,7 +9,7 @@ from typing import Final
 from tribodyn.core.quoting import brief
 
 MOST_FAULTS: Final = 20
-"""How many things that are wrong a user reads at once."""
+"""Number of errors that a user reads at once."""
 
 
 class TribodynError(Exception):
@@ -53,7 +53,7 @@ def below(path: str) -> Iterator[None]:
 
 
 MOST_HINTS: Final = 5
-"""For how many of them what was meant is looked for, which takes as long as reading a whole case."""
+"""Number of errors with a suggestion, each of which takes as long as reading a whole case."""
 
 
 class InputErrors(InputError):
@@ -85,7 +85,7 @@ def together(faults: Sequence[InputError]) -> InputError:
 
 
 class Faults:
-    """Gathers what is wrong with several entries, so that a user hears of all of it at once, and once only.
+    """Collector of errors in several entries, so that a user reads all of them at once, and once only.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class Faults:
                 self.raise_any()
 
     def raise_any(self) -> None:
-        """Raise what was gathered, if anything was."""
+        """Raise the collected errors, if there are any."""
         if self.found:
             raise together(self.found)
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 # In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
 METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
-"""How processes are started, as :mod:`multiprocessing` calls it."""
+"""Start method of processes, as :mod:`multiprocessing` calls it."""
 # The threads of a worker would only take time from the other workers. Without the safe path these processes
 # would import modules from the working directory, where a file may have the name of any module.
 # What a case frees, the next one needs again: returned to the system it costs a page fault for every 4 kB.
@@ -70,7 +70,7 @@ def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = Mappin
 
 
 def take_case() -> dict[str, Any] | None:
-    """Return what :func:`start` was given to the server; None to others, and to whoever asks again."""
+    """Return the server's argument from :func:`start`; None to other processes, and at a second call."""
     given = os.environ.pop(_CASE, None)
     return None if given is None else dict(json.loads(given))
 

@@ -1,4 +1,4 @@
-"""What this machine lets a process have: processors and handles."""
+"""Limits of a process on this machine: processors and handles."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 _QUOTA: Final = Path("/sys/fs/cgroup/cpu.max")
-"""Where Linux says what a container may use: time on all processors together, and in what time [µs]."""
+"""Files of Linux with a container's limits: time on all processors together, and its period [µs]."""
 
 
 def processors() -> int:
@@ -23,7 +23,7 @@ def processors() -> int:
 
 
 def free_handles() -> float:
-    """Return how many more files, pipes and sockets this process may open."""
+    """Return the number of further files, pipes and sockets that this process may open."""
     if sys.platform == "win32":
         return math.inf
     import resource

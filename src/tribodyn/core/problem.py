@@ -82,7 +82,7 @@ class CompiledFunctions:
 
 @dataclass(frozen=True)
 class LinearSolver:
-    """How a problem of many states solves with its Newton matrix M − γJ itself, in less than n² numbers.
+    """Linear algebra of a problem of many states with its Newton matrix M − γJ, in less than n² numbers.
 
     M is the mass matrix of the problem, 1 where it has none.
 
@@ -223,7 +223,7 @@ class Problem:
 
 @dataclass
 class Statistics:
-    """What the integration cost."""
+    """Cost of the integration."""
 
     steps: int = 0
     rejected: int = 0
@@ -236,7 +236,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Solution:
-    """What an integration leaves: rows at output times, pictures, cost, and how it ended.
+    """Result of an integration: rows at output times, pictures, cost, and its end.
 
     Attributes
     ----------

@@ -55,7 +55,7 @@ def record_type(*fields: Any) -> RecordType:
 
 @cache
 def slices(table: Table) -> Mapping[str, slice]:
-    """Return where each quantity is among the numbers of a record that :func:`of_table` makes."""
+    """Return the place of each quantity among the numbers of a record that :func:`of_table` makes."""
     ends = itertools.accumulate(quantity.size for quantity in table)
     return {quantity.name: slice(end - quantity.size, end) for quantity, end in zip(table, ends, strict=True)}
 

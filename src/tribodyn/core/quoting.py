@@ -1,4 +1,4 @@
-"""What messages repeat of what a user gave."""
+"""Quotation of a user's text in messages."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def on_one_line(text: str) -> str:
 
 
 def as_given(text: str) -> str:
-    """Return how a message about a wrong text begins."""
+    """Return the beginning of a message on a wrong text."""
     return f'given "{brief(text)}"'
 
 
@@ -51,7 +51,7 @@ def meant(word: str, words: Collection[str]) -> str:
 
 
 def nearest(word: str, words: Collection[str], number: int = 5) -> str:
-    """Return which of many `words` are most like one that is not among them, and how many there are.
+    """Return those of many `words` that are most like one that is not among them, and their number.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What was made last, by what it depends on."""
+"""Newest values, by the inputs on which they depend."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Remembered(Generic[_Made]):
             self._known[key] = value
 
     def made(self, key: Hashable, make: Callable[[], _Made]) -> _Made:
-        """Return what belongs to a key, made where it is not remembered."""
+        """Return the value of a key, made where it is not remembered."""
         try:
             return self._known[key]
         except KeyError:

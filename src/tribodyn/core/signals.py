@@ -75,12 +75,12 @@ class Signal:
         return self.at(0.0)
 
     def zeros(self, order: int) -> FloatArray:
-        """Return where a derivative of a table of some order is zero, shape (m,); begins of zero pieces."""
+        """Return the zeros of a derivative of a table, shape (m,); begins of zero pieces."""
         found = np.asarray(self._curve.derivative(order).roots(extrapolate=False))
         return found[np.isfinite(found)]
 
     def least(self, until: float) -> tuple[float, float]:
-        """Return where between zero and ``until`` a table has its least value, and that value."""
+        """Return the place of a table's least value between zero and ``until``, and that value."""
         places = np.concatenate([[0.0, until], self.knots, self.zeros(1)])
         places = places[(places >= 0.0) & (places <= until)]
         values = self(places)

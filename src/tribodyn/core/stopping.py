@@ -20,7 +20,7 @@ Stop: TypeAlias = Callable[[], bool] | None
 
 @dataclass
 class _Question:
-    """What is asked, and whether anything was skipped because of the answer."""
+    """Question to the caller, and whether anything was skipped because of the answer."""
 
     stop: Stop = None
     skipped: bool = False

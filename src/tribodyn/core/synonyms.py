@@ -85,7 +85,7 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "plot": ("report",),
     "gui": ("workbench",),
 }
-"""What was probably meant, the likeliest first; a word that is also one of ours is never looked up."""
+"""Probable meanings, the likeliest first; a word that is also one of ours is never looked up."""
 OF_DIAMETERS: Final = frozenset({"diameter", "diametral", "diametral_clearance"})
 """Words whose values are twice those of the words of this program for them."""
 

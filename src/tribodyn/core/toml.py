@@ -54,7 +54,7 @@ def parse(text: str) -> dict[str, Any]:
 
 
 def _refuse_depth(text: str) -> None:
-    """Refuse what the parser would need much time or memory for; linear in the length of the text."""
+    """Refuse a text that would cost the parser much time or memory; linear in the length of the text."""
     depth = dots = marks = 0
     for match in _MARKS.finditer(text):
         kind = match.lastgroup

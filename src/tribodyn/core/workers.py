@@ -37,7 +37,7 @@ Answer: TypeAlias = Callable[[bytes, Connection], bytes | None]
 
 @dataclass(frozen=True)
 class Service:
-    """What a worker process does; all functions are those of a module.
+    """Task of a worker process; all functions are those of a module.
 
     Attributes
     ----------

@@ -37,7 +37,7 @@ class _Finder:
 
     @staticmethod
     def find_spec(name: str, path: Sequence[str] | None, _: ModuleType | None = None) -> ModuleSpec | None:
-        """Return how a module is loaded; None for all others."""
+        """Return the loader of a module; None for all others."""
         found = PathFinder.find_spec(name, path) if name in _FILES else None
         if found is not None and isinstance(found.loader, SourceFileLoader):
             found.loader = _Loader(found.loader.name, found.loader.path)

@@ -1,4 +1,4 @@
-"""What a family of figures is, and what moving pictures show."""
+"""Types of a family of figures and of moving pictures."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class MovingFigure(Protocol):
     figure: Figure
 
     def show(self, frame: int) -> None:
-        """Draw what holds at one of the times."""
+        """Draw the state at one of the times."""
 
 
 @dataclass(frozen=True)
 class Animation:
-    """How a mechanism moves, as a film and as solids in space.
+    """Motion of a mechanism, as a film and as solids in space.
 
     Attributes
     ----------

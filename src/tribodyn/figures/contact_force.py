@@ -76,7 +76,7 @@ def _hardest(time: FloatArray, size: FloatArray, turns: FloatArray, settling: fl
 
 
 def _ringing_time(dataset: xr.Dataset, start: float) -> float:
-    """Return how long after ``start`` the damping force exceeds a tenth of its peak, 0.03 to 0.3 s."""
+    """Return the time after ``start`` for which the damping force exceeds 0.1 of its peak, 0.03 to 0.3 s."""
     time = series(dataset, "time")
     near = (time >= start) & (time <= start + 0.3)
     damping = np.hypot(series(dataset, "F_dx"), series(dataset, "F_dy"))[near]

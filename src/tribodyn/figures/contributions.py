@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 
 TOGETHER: Final = "only together"
-"""What joints cause only together, in the place of a joint."""
+"""Part of the error that joints cause only together, in the place of a joint."""
 _COLOURS: Final = (style.ORANGE, style.GREEN, style.PURPLE)
 _ROOM: Final = 1.25
 """Height of title, axis and legend [in]."""
@@ -23,7 +23,7 @@ _THICK: Final = 0.36
 
 @dataclass(frozen=True)
 class Shares:
-    """What is drawn of the error of one output.
+    """Data of the picture of one output's error.
 
     Attributes
     ----------

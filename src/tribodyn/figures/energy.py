@@ -115,7 +115,7 @@ def _sizes(axes: Axes, dataset: xr.Dataset, terms: Mapping[str, str]) -> None:
 
 
 def _floor(sizes: FloatArray) -> float:
-    """Return where the logarithmic axis begins [J]."""
+    """Return the beginning of the logarithmic axis [J]."""
     positive = sizes[sizes > 0.0]
     return float(10.0 ** np.floor(np.log10(positive.min()) - 0.3)) if positive.size else 1e-9
 

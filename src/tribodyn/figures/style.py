@@ -1,4 +1,4 @@
-"""How figures look: colours, sizes and the small parts every family uses.
+"""Style of figures: colours, sizes and the small parts every family uses.
 
 Nothing here touches matplotlib's global state: no pyplot, no rcParams, so that figures can be drawn from a
 thread, a test or a notebook without changing what the user set up there.

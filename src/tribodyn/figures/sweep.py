@@ -115,7 +115,7 @@ def _unit(coordinate: xr.DataArray) -> str:
 
 
 def _label(coordinate: xr.DataArray) -> str:
-    """Return what a parameter is, with its unit, as axis label."""
+    """Return a parameter's axis label, with its unit."""
     if not _numeric(coordinate):
         return str(coordinate.name)
     words = style.plain(str(coordinate.attrs.get("long_name", coordinate.name)))
@@ -307,7 +307,7 @@ def _rank_correlation(x: FloatArray, y: FloatArray) -> str:
 
 
 def _distributions(axes: Axes, groups: list[tuple[FloatArray, str]]) -> None:
-    """Draw how the samples of each group are distributed; of one group alone with the middle 90 %."""
+    """Draw the distribution of the samples of each group; of one group alone with the middle 90 %."""
     style.finish(axes, "number of points [–]")
     for (values, label), colour, dash in zip(groups, cycle(_COLOURS), cycle(_DASHES)):
         if values.size:

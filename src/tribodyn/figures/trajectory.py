@@ -1,4 +1,4 @@
-"""Where the trunnion goes inside the clearance circle."""
+"""Path of the trunnion inside the clearance circle."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def draw(dataset: xr.Dataset) -> Figure:
 
 
 def _key_result(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -> None:
-    """Say how deep and after what."""
+    """Write depth and number of cycles."""
     time, period = dataset["time"].values, dataset.attrs.get("cycle_period")
     after = f" after {np.ptp(time) / period:.3g} cycles" if period and time.size else ""
     if "wear_cycles_reached" in dataset.attrs:

@@ -93,7 +93,7 @@ class Method(Protocol):
     """A method that advances an initial value problem step by step."""
 
     def prepare(self) -> None:
-        """Import what the method needs; raise ``InputError`` if that is not installed.
+        """Import the packages of the method; raise ``InputError`` if one is not installed.
 
         Called once before a run, so that neither the time of the import is counted as
         integration nor the memory of a problem changed by a run that cannot begin.

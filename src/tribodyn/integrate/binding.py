@@ -129,7 +129,7 @@ def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
 
 
 def code_key(problem: Problem, types: tuple[Any, Any]) -> tuple[object, ...]:
-    """Return what the compiled functions of a problem depend on; the types have to be kept with it."""
+    """Return the types on which the compiled functions of a problem depend; they have to be kept with it."""
     algebra = problem.algebra
     solvers = None if algebra is None else (algebra.factorise, algebra.solve)
     return problem.functions, solvers, len(problem.field_shape), *map(id, types)
@@ -203,7 +203,7 @@ class Binding:
         return coo_array((filled, tuple(self._places)), shape=(self._n, self._n)).tocsc()
 
     def _filled(self, t: float, y: FloatArray) -> FloatArray:
-        """Return what ``jac`` fills: shape (n, n), or (n_entries,) with an algebra of the problem's own."""
+        """Return the array that ``jac`` fills: (n, n), or (n_entries,) with an algebra of its own."""
         self._statistics.jacobian_evaluations += 1
         shape = (self._n, self._n) if self._places is None else self._places.shape[1:]
         jacobian = np.zeros(shape)

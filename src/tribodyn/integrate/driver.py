@@ -32,7 +32,7 @@ LONG_STEP: Final = 0.3
 
 @dataclass(frozen=True)
 class IntegrationTask:
-    """What an integrator is to do; meanings as in :func:`tribodyn.integrate.integrate`."""
+    """Task of an integrator; meanings as in :func:`tribodyn.integrate.integrate`."""
 
     problem: Problem
     schedule: Schedule
@@ -42,7 +42,7 @@ class IntegrationTask:
 
 
 class Integrator(Protocol):
-    """What ``SOLVERS`` lists: runs a whole problem and never raises for a run that fails midway."""
+    """Type of the members of ``SOLVERS``: runs a whole problem, never raises for one that fails midway."""
 
     def prepare(self) -> None:
         """Raise ``InputError`` if a package that the integrator needs is not installed."""
@@ -66,7 +66,7 @@ class Stepwise:
     method: Method
 
     def prepare(self) -> None:
-        """Import what the method needs, see :class:`Integrator`."""
+        """Import the packages of the method, see :class:`Integrator`."""
         self.method.prepare()
 
     def __call__(self, task: IntegrationTask) -> Solution:
@@ -194,7 +194,7 @@ class Walk:
         self.t, self.y = t_b, y_b
 
     def take(self) -> None:
-        """Take what is due at the next mark: an output row, a picture or both."""
+        """Take the outputs due at the next mark: an output row, a picture or both."""
         problem, mark = self.problem, self.next_mark
         if self.schedule.is_output[mark]:
             row = np.empty((1, problem.n_observed))
@@ -242,7 +242,7 @@ class Walk:
         return f"stopped at t = {self.t:.9g} s, after a step of {self.step_size:.3g} s: {reason}"
 
     def solution(self, failure: str | None) -> Solution:
-        """Return what was reached."""
+        """Return the solution so far."""
         self.collect()
         n_rows, n_pictures = self.kept.numbers
         times, rows = self.followed.merged(self.schedule.output_times[:n_rows], self.kept.rows)

@@ -105,13 +105,13 @@ class Followed:
         return every[order], rows
 
     def _chosen(self, stretch: _Stretch) -> NDArray[np.intp]:
-        """Return which rows of a stretch are kept."""
+        """Return the rows of a stretch that are kept."""
         if stretch.n <= self.following.most:
             return np.arange(stretch.n)
         return thinning(np.concatenate([*map(self._sizes, stretch.blocks())]), self.following.most)
 
     def _sizes(self, rows: FloatArray) -> FloatArray:
-        """Return what must keep its peaks, a column each: numbers as they are, vectors by their lengths."""
+        """Return the quantities whose peaks are kept, a column each: numbers, and vectors by lengths."""
         columns = [
             rows[:, places[0]] if len(places) == 1 else np.linalg.norm(rows[:, places], axis=1)
             for places in self._watched
@@ -174,7 +174,7 @@ def _spread(rows: FloatArray, places: NDArray[np.intp]) -> None:
 
 
 def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
-    """Return which of many rows to keep, at most ``most``: increasing indices, shape (m,).
+    """Return the indices of the rows to keep, at most ``most``: increasing, shape (m,).
 
     The rows are cut into pieces of equal number; of each the first is kept and, of every column, the smallest
     and the largest value. So all peaks stay, also if rows are thinned again.

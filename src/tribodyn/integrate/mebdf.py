@@ -187,7 +187,7 @@ class _CompiledWalk(Walk):
             raise InputError(str(wrong)) from wrong
 
     def _jacobian(self, state: MebdfState) -> FloatArray:
-        """Return what ``jac`` fills."""
+        """Return the array that ``jac`` fills."""
         from mebdf.kernels.state import JACOBIAN
 
         jacobian: FloatArray = state.matrices[JACOBIAN] if self._own is None else self._own.jacobian

@@ -1,4 +1,4 @@
-"""When a run has stopped making progress, although it goes on stepping."""
+"""Detection of a run that makes no progress, although it goes on stepping."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When an integration starts, restarts, and takes outputs and pictures.
+"""Times of starts, restarts, outputs and pictures of an integration.
 
 Times that come from different arithmetic may differ in their last digits although they
 are meant to be the same: an output at ``3 * 0.1`` and a breakpoint at ``0.3``. All of

@@ -84,7 +84,7 @@ class Friction:
 
 @dataclass(frozen=True)
 class EntryMemory:
-    """How a point of the bushing remembers the speed at which contact began.
+    """Memory of a point of the bushing: the speed at which contact began.
 
     Attributes
     ----------
@@ -164,7 +164,7 @@ class BushingJoint:
 
     @property
     def form_gap(self) -> FloatArray:
-        """What the form adds to the gap at the nodes [m], shape (n_z + 2, n_theta)."""
+        """Gap that the form adds at the nodes [m], shape (n_z + 2, n_theta)."""
         along = self.form.gap(self.z, self.geometry.length)[:, None]
         return along + self.form.measured(self.theta, self.z)
 
@@ -180,7 +180,7 @@ class BushingJoint:
         return Touch(self.roughness, self.table, self.contact, self.liner, size.clearance, size.bore_radius)
 
     def data(self, wear: FloatArray | None = None) -> BushingData:
-        """Return what the kernels read.
+        """Return the data of the kernels.
 
         Parameters
         ----------
@@ -310,7 +310,7 @@ def joint_report(
     sign: float = 1.0,
     entry_velocity: FloatArray | None = None,
 ) -> dict[str, float]:
-    """Return what is reported of a joint, see ``kernels/joints/quantities.py``; arguments as above."""
+    """Return the report of a joint, see ``kernels/joints/quantities.py``; arguments as above."""
     memory, pose = new_memory(data, entry_velocity), pose_at(y, omega=omega, sign=sign)
     out = memory.scratch.report
     report(data, memory, pose)

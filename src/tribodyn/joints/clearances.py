@@ -35,7 +35,7 @@ SPHERE: Final = "point-lankarani-nikravesh"
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceLaw:
-    """How two surfaces touch.
+    """Contact of two surfaces.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class SurfaceLaw:
 
 @dataclass(frozen=True, kw_only=True)
 class Clearance(SurfaceLaw):
-    """What makes an ideal joint a real one: two surfaces and what acts between them.
+    """Clearance of a joint: two surfaces and the forces between them.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class Clearance(SurfaceLaw):
 
 @dataclass(frozen=True)
 class Place:
-    """Where a surface lies in the arrays of a mechanism.
+    """Place of a surface in the arrays of a mechanism.
 
     Attributes
     ----------
@@ -131,7 +131,7 @@ def table_of(
 
 
 def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
-    """Return where the surfaces of clearance joints lie, joint by joint.
+    """Return the places of the surfaces of clearance joints, joint by joint.
 
     Raises
     ------
@@ -150,7 +150,7 @@ def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
 def assemble(
     clearances: Sequence[Clearance], wear: FloatArray | None = None, where: Sequence[Place] | None = None
 ) -> SurfaceData:
-    """Return what the kernels of ``kernels/joints/surface`` read.
+    """Return the data of the kernels of ``kernels/joints/surface``.
 
     Parameters
     ----------
@@ -248,7 +248,7 @@ def fill_points(record: Record, points: Points) -> None:
 
 
 def _reach(clearance: Clearance, nodes: FloatArray) -> tuple[float, float]:
-    """Return how far a shaft may be displaced across and along its axis within a surface of these nodes [m].
+    """Return the play of a shaft across and along its axis within a surface of these nodes [m].
 
     Across it has left its bore when the wall is thinner than the shaft and behind it. Along, where it is not
     meant to slide, when nothing of it is left in the bore.

@@ -28,7 +28,7 @@ _LONGEST_STEP: Final = 0.05
 
 @dataclass(frozen=True)
 class Drop:
-    """What one drop of a shaft gave.
+    """Result of one drop of a shaft.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ from tribodyn.joints.bushing import BushingGeometry
 
 @dataclass(frozen=True)
 class Casing:
-    """What a sleeve is bonded into.
+    """Casing of a sleeve.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Casing:
 
 
 def clearance_rates(geometry: BushingGeometry, casing: Casing | None) -> dict[str, float]:
-    """Return what the clearance gains for each strain αΔT, by the part that it belongs to [m].
+    """Return the gain of the clearance for each strain αΔT, by the part that it belongs to [m].
 
     Arguments as for :func:`expanded`; the strain of the casing itself does not matter.
     """

@@ -1,4 +1,4 @@
-"""What the surfaces of a bushing joint stand back from cylinders: crown, chamfers, measured forms."""
+"""Deviation of the surfaces of a bushing joint from cylinders: crown, chamfers, measured forms."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Form:
     profile: Signal | None = None
 
     def measured(self, theta: FloatArray, z: FloatArray) -> FloatArray:
-        """Return what measured forms add to the clearance [m], shape (n_z, n_theta)."""
+        """Return the gap that measured forms add to the clearance [m], shape (n_z, n_theta)."""
         added = np.zeros((z.size, theta.size))
         if self.bore is not None:
             added += self.bore.deviation(theta, z)
@@ -81,7 +81,7 @@ class Form:
         return added
 
     def gap(self, z: FloatArray, length: float) -> FloatArray:
-        """Return what is added to the clearance at the heights ``z`` of a bushing [m], shape of ``z``."""
+        """Return the gap that the form adds at the heights ``z`` of a bushing [m], shape of ``z``."""
         half = 0.5 * length
         drop = self.crown * (z / half) ** 2
         if self.chamfer_length == 0.0:

@@ -34,7 +34,7 @@ _ITERATIONS: Final = 8
 
 
 class Cylinders(Protocol):
-    """What a point contact asks of the geometry of a bushing."""
+    """Demands of a point contact on the geometry of a bushing."""
 
     @property
     def clearance(self) -> float:
@@ -95,7 +95,7 @@ POINT_CONTACTS: dict[str, Callable[[FloatArray, float, Cylinders], Curve]] = {
 }
 SURFACE: Final = "surface"
 CONTACTS: Final = (SURFACE, *POINT_CONTACTS)
-"""How a trunnion can touch its bushing."""
+"""Kinds of contact between a trunnion and its bushing."""
 
 
 def contact_table(
@@ -107,7 +107,7 @@ def contact_table(
     smoothing_width: float,
     liner: Liner | None = None,
 ) -> ContactTable:
-    """Return what the kernels of a joint read of a contact law.
+    """Return the data of a contact law for the kernels of a joint.
 
     Parameters
     ----------

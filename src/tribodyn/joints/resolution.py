@@ -1,4 +1,4 @@
-"""How many nodes resolve the contact of rough surfaces in a clearance.
+"""Number of nodes that resolves the contact of rough surfaces in a clearance.
 
 Asperities touch within some standard deviations σ of their heights. A shaft that leans on a bore with the
 radial clearance c touches it over an angle that goes with √(σ/c), and where it is tilted as far as it can be,
@@ -25,7 +25,7 @@ MOST: Final = (512, 128)
 
 
 def resolving(clearance: float, roughness: float) -> tuple[int, int]:
-    """Return how many nodes around and along resolve the contact.
+    """Return the numbers of nodes around and along that resolve the contact.
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ from tribodyn.kernels.joints.surface.data import (
 from tribodyn.kernels.lanes import WIDTH
 
 OUT_OF_REACH: Final = 1.0e3
-"""What a repeated node of a ring is lifted by [m]."""
+"""Lift of a repeated node of a ring [m]."""
 CLOSE: Final = 1.0e-12
 """Distance by which a node may miss its ring [m], and errors of its normal and its relative area [1]."""
 _KEPT: Final = 8
@@ -91,7 +91,7 @@ def _around(node: NDArray[np.int64], count: int) -> FloatArray:
 
 
 def rings_of(rows: Rows, nodes: FloatArray) -> FloatArray:
-    """Return what the nodes of each row share, see ``kernels/joints/surface/data.py``."""
+    """Return the common data of the nodes of each row, see ``kernels/joints/surface/data.py``."""
     rings, first = np.zeros((N_RING, rows.size + WIDTH - 1)), rows["first"]
     own = rings[:, : rows.size]
     own[N_RADIAL], own[N_AXIAL], own[ARM] = rows["normal"][:, 0], rows["normal"][:, 2], rows["arm"]

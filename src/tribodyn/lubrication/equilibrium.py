@@ -1,4 +1,4 @@
-"""Where a film carries a load alone: from load and speed to the place of the shaft, without contact."""
+"""Equilibrium of a shaft that a film carries alone: from load and speed to its place, without contact."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tribodyn.lubrication.state import FilmState, film_state
 _DEEPEST: Final = 4.0
 """Overlap of the mean planes over σ down to which a rough film has an answer."""
 _MARGIN: Final = 1.0e-6
-"""How far the search stays from there, and how near it goes to where answers end, over the clearance."""
+"""Distances that the search keeps from its start and from the ends of its range, over the clearance."""
 _THIN_CELLS: Final = 2.0
 """Cells that the film must have on either side of its thinnest place, up to twice its least thickness."""
 _SETTLED: Final = 1.0e-10
@@ -85,7 +85,7 @@ class FilmEquilibrium:
 
 
 def film_equilibrium(film: Film, load: tuple[float, float], *, omega: float) -> FilmEquilibrium:
-    """Return where a film carries a load without any help from contact.
+    """Return the place of a shaft that a film carries without any help from contact.
 
     Shaft and bushing are round: how far the centre lies from the axis follows from the size of the load,
     and in which direction by turning. Newton's method then removes what the grid knows of directions.

@@ -156,13 +156,13 @@ def couette_factor(separation: FloatArray) -> FloatArray:
 
 
 def _touching(z: FloatArray) -> FloatArray:
-    """φ_f where the highest asperities touch."""
+    """φ_f with contact of the highest asperities."""
     tail = -55.0 + z * (132.0 + z * (345.0 + z * (-160.0 + z * (-405.0 + z * (60.0 + 147.0 * z)))))
     return np.asarray(35.0 / 32.0 * z * (_cube(1.0 - z**2) * portable.log(300.0 * (z + 1.0)) + tail / 60.0))
 
 
 def _apart(z: FloatArray) -> FloatArray:
-    """φ_f where they do not."""
+    """φ_f without any contact."""
     gap = np.maximum(z - 1.0, 1e-300)
     tail = z / 15.0 * (66.0 + z**2 * (30.0 * z**2 - 80.0))
     return np.asarray(35.0 / 32.0 * z * (_cube(1.0 - z**2) * portable.log((z + 1.0) / gap) + tail))

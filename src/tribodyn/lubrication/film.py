@@ -89,7 +89,7 @@ class Film:
     grid: FilmGrid = field(default_factory=FilmGrid)
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be a film."""
+        """Refuse impossible films."""
         for name in ("viscosity", "clearance", "radius", "length"):
             value = getattr(self, name)
             if not 0.0 < value < math.inf:
@@ -119,7 +119,7 @@ class Film:
         return self.grid.z + 1, self.grid.theta
 
     def data(self, wear: FloatArray | None = None) -> FilmData:
-        """Return what the kernels read.
+        """Return the data of the kernels.
 
         Parameters
         ----------

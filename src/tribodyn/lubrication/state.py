@@ -42,7 +42,7 @@ def explain(status: int) -> str:
 
 @dataclass(frozen=True)
 class FilmState:
-    """What a film does at one state.
+    """Forces and losses of a film at one state.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What loads a mechanism over a run, and the segments between the kinks of tables."""
+"""Loads of a mechanism over a run, and the segments between the kinks of tables."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Term:
 
 
 def kinks_over(terms: Iterable[Term], over: int, reached: FloatArray) -> FloatArray:
-    """Return where signals over one coordinate kink, increasing; ``reached`` holds values of it."""
+    """Return the kinks of signals over one coordinate, increasing; ``reached`` holds values of it."""
     low, high = float(reached.min()), float(reached.max())
     factors = [factor for term in terms for factor in term.factors]
     found = [signal.kinks_within(low, high) for signal, follows in factors if follows == over]
@@ -66,7 +66,7 @@ def shortest_wave(terms: Iterable[Term]) -> float:
 
 
 def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Actions:
-    """Return what kernels read.
+    """Return the data of the kernels.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def inside(times: FloatArray, duration: float) -> FloatArray:
 def crossings(
     coordinate: Callable[[FloatArray], FloatArray], turns: FloatArray, levels: FloatArray
 ) -> FloatArray:
-    """Return when a coordinate passes some values, shape (n,).
+    """Return the times at which a coordinate passes some values, shape (n,).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Where the loads on a shaft balance: Newton's method for rough contact."""
+"""Balance of the loads on a shaft: Newton's method for rough contact."""
 
 from __future__ import annotations
 

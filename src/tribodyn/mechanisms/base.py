@@ -1,4 +1,4 @@
-"""What a mechanism is to the rest of the program: one descriptor, and the systems that its cases describe.
+"""Interface of a mechanism: one descriptor, and the systems that its cases describe.
 
 A mechanism is one folder beside this file and one line in ``FOLDERS`` of ``catalogue.py``, or a package of
 its own that registers its descriptor under the entry points ``tribodyn.mechanisms``. Everything above reads
@@ -95,7 +95,7 @@ class ResultPart:
 
 
 class Steps(Protocol):
-    """What a run needs to know of a table ``[solver]``."""
+    """Values of a table ``[solver]`` that a run needs."""
 
     @property
     def name(self) -> str:
@@ -109,7 +109,7 @@ class Steps(Protocol):
 
 
 class SystemCase(Protocol):
-    """What a run needs to know of its case, whatever its kind."""
+    """Values of a case that a run needs, whatever its kind."""
 
     @property
     def title(self) -> str:
@@ -127,7 +127,7 @@ class SystemCase(Protocol):
         ...
 
     def remarks(self) -> Remarks:
-        """Return what a user should know of its values."""
+        """Return remarks on its values."""
         ...
 
     def to_toml(self) -> str:
@@ -136,7 +136,7 @@ class SystemCase(Protocol):
 
 
 class WearingCase(SystemCase, Protocol):
-    """What a wear campaign needs to know of its case."""
+    """Values of a case that a wear campaign needs."""
 
     @property
     def wear(self) -> Wear:
@@ -160,7 +160,7 @@ class WearingCase(SystemCase, Protocol):
 
 
 class SimulatedSystem(Protocol):
-    """What one case describes, ready to be integrated."""
+    """System of one case, ready to be integrated."""
 
     def check(self) -> Sequence[str]:
         """Put the mechanism together, joints and contact laws with it; raise what a run would refuse.
@@ -191,7 +191,7 @@ class SimulatedSystem(Protocol):
         ...
 
     def gather(self, run: FinishedRun) -> ResultPart:
-        """Return what the mechanism knows about a run; rows of no length give columns of no length."""
+        """Return the mechanism's facts about a run; rows of no length give columns of no length."""
         ...
 
 
@@ -204,7 +204,7 @@ class WearingSystem(SimulatedSystem, Protocol):
 
     @property
     def nodes(self) -> WearNodes:
-        """Where they wear; no nodes where all joints are ideal."""
+        """Worn nodes; none where all joints are ideal."""
         ...
 
     @property
@@ -230,11 +230,11 @@ class WearingSystem(SimulatedSystem, Protocol):
         ...
 
     def carried(self, run: FinishedRun) -> Carried:
-        """Return what the next cycle continues from."""
+        """Return the state from which the next cycle continues."""
         ...
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
-        """Return what a campaign writes down about the motion of a complete cycle, by name."""
+        """Return the numbers of a complete cycle that a campaign keeps, by name."""
         ...
 
     def output_lives(self, run: FinishedRun, depth: FloatArray) -> Mapping[str, float]:
@@ -346,7 +346,7 @@ class MechanismDescriptor:
         return cast(SimulatedSystem, self._module("system").SYSTEM(case))
 
     def workload(self, case: SystemCase) -> Workload:
-        """Return how much a run of a case computes and keeps: ``WORKLOAD`` of ``workload.py``."""
+        """Return the amount of work and memory of a run of a case: ``WORKLOAD`` of ``workload.py``."""
         return cast(Workload, self._module("workload").WORKLOAD(case))
 
     @property

@@ -91,7 +91,7 @@ def bearings(case: HasBushing) -> dict[str, Bearing]:
 
 
 def grid_of(case: HasBushing) -> tuple[int, int]:
-    """Return how many nodes the joint has around and along at the temperatures of the run, edges apart."""
+    """Return the joint's numbers of nodes around and along at the temperatures of the run, edges apart."""
     (bearing,) = bearings(case).values()
     return _grid(case, bearing)
 
@@ -125,7 +125,7 @@ def bushing_of(case: HasBushing) -> BushingJoint:
 
 
 def bushing_facts(case: HasBushing) -> dict[str, object]:
-    """Return what the attributes of a result say of the joint, SI units."""
+    """Return the attributes of a result on the joint, SI units."""
     geometry = case.temperature.dimensions(case.joint, case.surfaces)
     return {
         "contact_law": case.contact.law,
@@ -137,7 +137,7 @@ def bushing_facts(case: HasBushing) -> dict[str, object]:
 
 
 def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> list[str]:
-    """Return what the temperatures of a case change, one sentence; nothing where they change nothing.
+    """Return the effect of a case's temperatures, one sentence; nothing where they change nothing.
 
     ``clearance`` is that over the rows of a run [m], where it changes.
     """
@@ -175,7 +175,7 @@ def of_heat(cold: float, hot: float, material: Mapping[str, tuple[float, float]]
 
 
 def loading(law: ContactLaw, touch: Touch, pressure: float, separation: float) -> dict[str, float]:
-    """Return how far two surfaces were loaded, by name; NaN where the contact is at points.
+    """Return the load measures of two surfaces, by name; NaN where the contact is at points.
 
     Parameters
     ----------
@@ -227,7 +227,7 @@ def on_finer_grid(
     wear: FloatArray | None = None,
     clearance: FloatArray | None = None,
 ) -> dict[str, float]:
-    """Return what a grid four times finer makes of a run; NaN where the caller wants to stop.
+    """Return the errors of a run against a grid four times finer; NaN where the caller wants to stop.
 
     Parameters
     ----------

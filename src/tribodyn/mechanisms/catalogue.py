@@ -127,7 +127,7 @@ MECHANISMS: Final[Mapping[str, MechanismDescriptor]] = _Mechanisms()
 
 
 def kinds() -> Mapping[str, type[Case]]:
-    """Return what may stand under ``case =`` in a file."""
+    """Return the allowed values of ``case =`` in a file."""
     return _Kinds()
 
 
@@ -208,7 +208,7 @@ def template(name: str) -> str:
 
 
 class Described(Protocol):
-    """What describes a case, as :class:`tribodyn.Mechanism` does."""
+    """Description of a case, such as :class:`tribodyn.Mechanism`."""
 
     def case(self) -> Case:
         """Return the case."""

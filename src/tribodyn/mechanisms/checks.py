@@ -1,4 +1,4 @@
-"""What a run with a bushing says about its own trustworthiness, in plain words."""
+"""Self-checks of a run with a bushing, in plain words."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ REJECTED_LIMIT: Final = 0.2
 RESTART_LIMIT: Final = 0.05
 """Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
 TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
-"""What makes balances close: absolute tolerances alone hold small slips and long ringing."""
+"""Advice that closes energy balances: absolute tolerances alone hold small slips and long ringing."""
 
 
 def extremes(*records: Record) -> dict[str, float]:
@@ -98,7 +98,7 @@ def instant(time: float, begins: Iterable[float] = (), impact_time: float = 0.0)
 
 
 def of_load(loading: Mapping[str, float], when: str) -> list[str]:
-    """Return what is to be said of the load on the surfaces; empty texts where nothing is.
+    """Return remarks on the load on the surfaces; empty texts without any.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def of_load(loading: Mapping[str, float], when: str) -> list[str]:
 
 
 def _of_real_area(area: float, when: str) -> str:
-    """Return what is to be said of a real area of contact, over the nominal one."""
+    """Return a remark on a real area of contact, over the nominal one."""
     if area > 1.0:
         return (
             "The contact law has left its range: where the surfaces came closest it gives more real area of "
@@ -133,7 +133,7 @@ def _of_real_area(area: float, when: str) -> str:
 
 
 def of_damping_pressure(pressure: float, at_rest: float) -> str:
-    """Return what is to be said of a peak pressure where surfaces at rest would carry ``at_rest`` [Pa]."""
+    """Return a remark on a peak pressure where surfaces at rest would carry ``at_rest`` [Pa]."""
     if not 0.0 < at_rest < (1.0 - _DAMPING) * pressure:
         return ""
     return (
@@ -143,7 +143,7 @@ def of_damping_pressure(pressure: float, at_rest: float) -> str:
 
 
 def of_reversals(every: FloatArray, turns: FloatArray, *, period: float, t_end: float, carried: bool) -> str:
-    """Say which reversals of a drive cycle a run does not hold with the impacts that follow them.
+    """Report the reversals of a drive cycle that a run does not hold with the impacts that follow them.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def of_reversals(every: FloatArray, turns: FloatArray, *, period: float, t_end: 
 
 
 def of_lift_off(share: float) -> str:
-    """Return what is to be said of a thrust collar that carried nothing for a share of the run."""
+    """Return a remark on a thrust collar that carried nothing for a share of the run."""
     return f"The thrust collar carried nothing for {100 * share:.2g} % of the run: lift-off is not modelled."
 
 
@@ -184,7 +184,7 @@ def of_contact(
     grid: tuple[int, int],
     keys: str = "solver.grid.theta and solver.grid.z",
 ) -> list[str]:
-    """Return what is to be said of a contact, whatever is joined by it; empty texts where nothing is.
+    """Return remarks on a contact, whatever is joined by it; empty texts without any.
 
     Parameters
     ----------
@@ -225,7 +225,7 @@ def of_contact(
 
 
 def of_clearance(touch: Touch) -> str:
-    """Return what is to be said of a clearance that rough surfaces fill; an empty text where nothing is."""
+    """Return a remark on a clearance that rough surfaces fill; an empty text without one."""
     if not (touch.over_surface and touch.clearance < ROUGH_LIMIT * touch.roughness):
         return ""
     return (
@@ -241,7 +241,7 @@ def named(name: str, said: Iterable[str]) -> list[str]:
 
 
 def _of_liner(touch: Touch, separation: float) -> list[str]:
-    """Return what is to be said of the layer that the asperities stand on."""
+    """Return a remark on the layer under the asperities."""
     if touch.liner is None or not math.isfinite(touch.bore_radius):
         return []
     half_width = touch.half_width(separation)
@@ -256,7 +256,7 @@ def _of_liner(touch: Touch, separation: float) -> list[str]:
 def of_tables(
     tables: Iterable[FollowedTable], times: FloatArray, coordinate: Callable[[FollowedTable], FloatArray]
 ) -> list[str]:
-    """Return which tables over angles or positions a run leaves.
+    """Return the tables over angles or positions that a run leaves.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ def of_tables(
 
 
 def of_steps(statistics: Mapping[str, float]) -> list[str]:
-    """Return what is to be said of how the integration went; empty texts where nothing is.
+    """Return remarks on the integration; empty texts without any.
 
     Parameters
     ----------

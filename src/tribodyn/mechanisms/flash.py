@@ -96,7 +96,7 @@ def flash_of_bushing(
 
 
 def _conductor(surface: Trunnion | Bushing) -> Conductor | None:
-    """Return what a body does with heat; None where that is not given."""
+    """Return the thermal properties of a body; None where they are not given."""
     if surface.conductivity is None or surface.diffusivity is None:
         return None
     return Conductor(surface.conductivity, surface.diffusivity)

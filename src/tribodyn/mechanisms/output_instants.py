@@ -73,7 +73,7 @@ def errors_at(
 def passes(
     times: FloatArray, coordinate: FloatArray, value: float, *, turns: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Return when a coordinate passes a value [s], and in which direction: 1, −1, or 0 where it turns back.
+    """Return the times at which a coordinate passes a value [s], and directions: 1, −1, or 0 for a return.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def passes(
 
 
 def _met(times: FloatArray, off: FloatArray, room: float) -> tuple[FloatArray, FloatArray]:
-    """Return when values are zero, with the sign of their rate; of a stay within ``room`` the beginning."""
+    """Return the zeros of values, with the sign of their rate; of a stay within ``room`` the beginning."""
     near = np.abs(off) <= room
     comes = np.flatnonzero(near & ~np.append(False, near[:-1]))
     before, after = off[np.maximum(comes - 1, 0)], off[np.minimum(comes + 1, off.size - 1)]

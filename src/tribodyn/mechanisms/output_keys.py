@@ -16,13 +16,13 @@ from tribodyn.mechanisms.base import plain
 
 ANGLE_UNIT: Final = "deg"
 ERROR_LIMIT_OF: Final = {"wear_error_share": "the error limit of an output"}
-"""What ends a wear campaign, in words, by what its history calls it."""
+"""Reasons for the end of a wear campaign, in words, by their names in its history."""
 _SHOWN: Final = {"angle": (ANGLE_UNIT, np.pi / 180.0), "position": ("mm", 1e-3), "time": ("s", 1.0)}
 """Unit that stands in the name of an instant, with its SI value, by what is given."""
 
 
 class InstantKeys(Group):
-    """Where the error of an output is read."""
+    """Place at which the error of an output is read."""
 
     angles: Numbers | None = series(
         "angles of the drive at which the error is read", "", unit=ANGLE_UNIT, example='["30 deg", "90 deg"]'
@@ -33,14 +33,14 @@ class InstantKeys(Group):
 
     @property
     def given(self) -> Iterator[tuple[str, float]]:
-        """What is given, ``angle``, ``position`` or ``time``, with each value (SI)."""
+        """Quantity of the values, ``angle``, ``position`` or ``time``, with each value (SI)."""
         for kind in _SHOWN:
             for value in getattr(self, f"{kind}s", None) or ():
                 yield kind, value
 
 
 class ErrorKeys(NamedGroup):
-    """What is asked of the error of an output, whatever its quantity.
+    """Limits on the error of an output, whatever its quantity.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class ErrorKeys(NamedGroup):
 
 @dataclass(frozen=True)
 class Instant:
-    """Where the error of an output is read.
+    """Place at which the error of an output is read.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class Instant:
 
 
 def instants_of(outputs: Mapping[str, ErrorKeys]) -> tuple[Instant, ...]:
-    """Return where errors are read, none twice."""
+    """Return the places at which errors are read, none twice."""
     found = (Instant(name, *given) for name, keys in outputs.items() for given in keys.at.given)
     return tuple({instant.name: instant for instant in found}.values())
 

@@ -1,4 +1,4 @@
-"""How the errors of outputs grow while joints wear, and when they reach their limits: a linear estimate.
+"""Growth of the errors of outputs with the wear of joints, and life to their limits: a linear estimate.
 
 A shaft follows the wear of its bore. It is displaced by δ and rotated by φ such that the gaps under the
 pressure stay as they were. With depth w, normal n (from the shaft into the bore), position x and pressure

@@ -58,7 +58,7 @@ DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
         _direction(-1.0),
     ),
 }
-"""By what stands in the name of the key result: errors in one direction of motion."""
+"""Parts of names of key results: errors in one direction of motion."""
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
     "lasting": (
         "sustained",
@@ -68,7 +68,7 @@ MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
     "max": ("peak", "Largest value at any time, impacts included.", lambda d, error: peak(settled(d, error))),
     "rms": ("rms", "Root mean square over time of the difference from the motion with ideal joints.", _rms),
 }
-"""By what stands in the name of the key result: how an error over time becomes one number."""
+"""Parts of names of key results: statistics of an error over time."""
 
 
 def number_of(dataset: xr.Dataset, output: str) -> int:

@@ -1,4 +1,4 @@
-"""What kernels have kept of peaks, as results hold it: of the whole run, and of each reversal."""
+"""Peaks from the kernels as results hold them: of the whole run, and of each reversal."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ the drive, half its cycle; the rest is smooth motion."""
 
 
 def impact_time(period: float) -> float:
-    """Return how long impacts last after a reversal [s] where a drive cycle takes ``period`` [s]."""
+    """Return the length of impacts after a reversal [s] for a drive cycle of ``period`` [s]."""
     return IMPACT_SHARE * 0.5 * period
 
 

@@ -1,4 +1,4 @@
-"""When pressure frames are taken: the pictures of which the report makes its animation.
+"""Times of pressure frames: the pictures of which the report makes its animation.
 
 Evenly over one drive cycle, and close together after each reversal, where the trunnion crosses the
 clearance within milliseconds. Frames are taken in the first and in the last complete cycle; the result
@@ -48,12 +48,12 @@ def frame_times(
 
 
 def first_frame(duration: float, period: float) -> float:
-    """Return when the last complete cycle begins [s]; 0 where none is complete."""
+    """Return the beginning of the last complete cycle [s]; 0 where none is complete."""
     return max(math.floor(duration / period + _SAME) - 1, 0) * period
 
 
 def shown(times: FloatArray, duration: float, period: float) -> slice:
-    """Return which of the frames that were reached make the film: one cycle, the last one if it was begun.
+    """Return the frames of the film among those that were reached: one cycle, the last one if it was begun.
 
     Parameters
     ----------

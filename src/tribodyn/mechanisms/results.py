@@ -114,7 +114,7 @@ def key_numbers_of(kind: str, names: Iterable[str]) -> list[str]:
 
 
 def known(names: Iterable[str], kind: str) -> dict[str, KeyResult]:
-    """Return what is known of those of the names that are key results of a kind, in reading order."""
+    """Return the key results of a kind among some names, in reading order."""
     given = list(names)
     of_all = {name: key_result for name, key_result in key_results_of(kind).items() if name in given}
     own = {name: key_result for name, key_result in of_all.items() if name not in summary.EFFORT}

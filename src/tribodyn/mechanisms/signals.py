@@ -154,7 +154,7 @@ class SignalList:
         return len(self.all) - 1
 
     def records(self) -> kinds.Signals:
-        """Return what kernels read: one signal and one piece at least."""
+        """Return the data of the kernels: one signal and one piece at least."""
         signals = new_records(max(len(self.all), 1), kinds.Signal)
         pieces = new_records(max(sum(p.until.size for p in self.all), 1), kinds.Piece)
         first = 0

@@ -1,4 +1,4 @@
-"""What runs of a wear campaign hand on to each other, and what wears."""
+"""State that runs of a wear campaign hand on, and the worn surfaces."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tribodyn.core.arrays import FloatArray
 
 @dataclass(frozen=True)
 class Carried:
-    """What a run hands on to the next one, which begins where it ended in the drive's cycle.
+    """State that a run hands on to the next one, which begins at its end in the drive's cycle.
 
     Attributes
     ----------

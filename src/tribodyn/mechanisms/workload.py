@@ -1,4 +1,4 @@
-"""How much a run of a case computes and keeps: counts from its keys alone, before anything is built."""
+"""Amount of work and memory of a run: counts from the keys of a case alone, before anything is built."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class Workload:
 
 
 def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float, rows: int) -> float:
-    """Return how many cycles a wear campaign simulates.
+    """Return the number of cycles that a wear campaign simulates.
 
     Depth per cycle is that of a typical pressure over a slip of one radius, so this is an order of magnitude.
 

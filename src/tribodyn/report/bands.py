@@ -1,4 +1,4 @@
-"""What assumed numbers do to a run: the band of its key results over a sweep in its folder."""
+"""Effect of assumed numbers on a run: the band of its key results over a sweep in its folder."""
 
 from __future__ import annotations
 

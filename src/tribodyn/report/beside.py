@@ -49,5 +49,5 @@ def _kept(folder: Path, point: ParallelPoint) -> bool:
 
 
 def _name(axes: Sequence[ParallelAxis], number: int) -> str:
-    """Return what was varied to get a point."""
+    """Return the changes that lead to a point."""
     return ", ".join(f"{axis.label}: {axis.texts[number]}" for axis in axes if axis.parameter)

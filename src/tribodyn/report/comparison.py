@@ -53,7 +53,7 @@ class ComparedRun:
 
 @dataclass(frozen=True)
 class RunDifferences:
-    """What differs between runs, the first of which the others are compared with.
+    """Differences between runs; the others are compared with the first.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class RunDifferences:
 
 
 def differences(results: Sequence[xr.Dataset]) -> RunDifferences:
-    """Return what differs between results, like beside like."""
+    """Return the differences between results, like beside like."""
     summaries, stretch = _compared(results)
     stretch = " ".join(filter(None, (stretch or _of_lengths(summaries), _of_whole_runs(summaries))))
     return RunDifferences(_different_keys(results), _numbers(summaries), stretch, summaries)

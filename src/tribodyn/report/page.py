@@ -86,7 +86,7 @@ def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
 
 
 def facts(dataset: xr.Dataset) -> dict[str, str]:
-    """Return what kind of run it was, in a few words."""
+    """Return the kind of run in a few words."""
     attributes, shown = dataset.attrs, {}
     if "clearance" in attributes:
         shown["clearance"] = f"{in_words(attributes['clearance'] * 1e6)} µm"

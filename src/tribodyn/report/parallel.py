@@ -145,7 +145,7 @@ def at_first(axes: list[ParallelAxis], key_numbers: Collection[str]) -> list[str
 def payload(
     axes: list[ParallelAxis], points: list[ParallelPoint], key_numbers: Collection[str]
 ) -> Payload | None:
-    """Return what the script reads; nothing where no point has numbers."""
+    """Return the data of the script; nothing where no point has numbers."""
     if not any(np.isfinite(axis.values).any() for axis in axes if not axis.parameter):
         return None
     return {

@@ -70,7 +70,7 @@ def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | Non
 
 
 def _columns(axes: Sequence[ParallelAxis], first: Collection[str]) -> list[ParallelAxis]:
-    """Return what the table of points shows."""
+    """Return the content of the table of points."""
     names = at_first(list(axes), first)
     return [axis for axis in axes if axis.name in names]
 

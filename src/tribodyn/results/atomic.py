@@ -37,7 +37,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def stage(path: Path, *content: bytes | memoryview) -> Path:
-    """Write what is to become a file to a temporary path beside it, on the disk when this returns.
+    """Write a future file's content to a temporary path beside it, on the disk when this returns.
 
     Parameters
     ----------

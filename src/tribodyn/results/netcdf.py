@@ -21,7 +21,7 @@ _ONE_AT_A_TIME: Final = threading.Lock()
 _MARK: Final = b"\ntribodyn crc32 "
 """Stands behind the NetCDF file, before the checksum of all of it; what reads NetCDF does not look there."""
 _FIRST_ROOM: Final = 1024
-"""What a file in memory begins with [bytes]; it grows."""
+"""Initial size of a file in memory [bytes]; it grows."""
 _CACHE: Final = 1
 """Cache of an array that is written in one piece [bytes]; by default a copy of all arrays is kept."""
 _DIGITS: Final = 8
@@ -127,7 +127,7 @@ def dataset_of(content: bytes) -> xr.Dataset:
 
 
 def attributes_of(path: str | PathLike[str]) -> dict[str, Any]:
-    """Return what a NetCDF-4 file says of the whole; as :func:`dataset_of` where it is damaged."""
+    """Return the global attributes of a NetCDF-4 file; as :func:`dataset_of` where it is damaged."""
     import netCDF4
 
     with _ONE_AT_A_TIME, netCDF4.Dataset(path) as file:

@@ -1,4 +1,4 @@
-"""What results hold of the outputs of a mechanism, and the units in which their errors are shown."""
+"""Variables of the outputs of a mechanism in results, and the units in which their errors are shown."""
 
 from __future__ import annotations
 
@@ -64,4 +64,4 @@ OUTPUTS_OF_CYCLE: Final = {
         "1", "largest error of an output in the cycle over its limit; zero without limits", JUMP
     )
 }
-"""What a wear campaign writes down about each cycle."""
+"""Numbers of each cycle that a wear campaign keeps."""

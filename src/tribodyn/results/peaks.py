@@ -1,4 +1,4 @@
-"""How results name peaks: of a whole run, and of each reversal with its impacts apart from the rest."""
+"""Names of peaks in results: of a whole run, and of each reversal with its impacts apart from the rest."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PARTS: Final = {
 
 
 def of_run_described(table: Table) -> dict[str, Variable]:
-    """Return what is known of the peaks of a run, by name."""
+    """Return the descriptions of the peaks of a run, by name."""
     described = {}
     for quantity in table:
         meaning = f"largest {quantity.meaning}"
@@ -25,7 +25,7 @@ def of_run_described(table: Table) -> dict[str, Variable]:
 
 
 def of_reversals_described(table: Table, part_of: tuple[str, ...] = ()) -> dict[str, Variable]:
-    """Return what is known of the peaks of each reversal, and of each part of a mechanism, by name."""
+    """Return the descriptions of the peaks of each reversal, and of each part of a mechanism, by name."""
     described = {}
     for quantity in table:
         for part, where in PARTS.items():

@@ -22,7 +22,7 @@ _ROUNDING: Final = 1e-9
 
 _Read: TypeAlias = dict[object, tuple[xr.Dataset, NDArray[Any]]]
 _read: Final[ContextVar[_Read | None]] = ContextVar("_read", default=None)
-"""What was read of results, by keys that hold as long as the results are held, too."""
+"""Values read off results, by keys that hold as long as the results are held, too."""
 
 
 @contextmanager
@@ -36,7 +36,7 @@ def reading_once() -> Iterator[None]:
 
 
 def _once(dataset: xr.Dataset, what: object, read: Callable[[], NDArray[Any]]) -> NDArray[Any]:
-    """Return what is read of a result, from an earlier time within :func:`reading_once`."""
+    """Return a value read off a result, from an earlier time within :func:`reading_once`."""
     known = _read.get()
     if known is None:
         return read()
@@ -118,7 +118,7 @@ def outside(dataset: xr.Dataset, name: str) -> float:
 
 
 def reversals_held(dataset: xr.Dataset) -> int:
-    """Return how many reversals the run holds with the impacts that follow them.
+    """Return the number of reversals that the run holds with the impacts that follow them.
 
     Where a run continues from another one, its start is a reversal; otherwise it is none.
     """
@@ -147,7 +147,7 @@ def rms(dataset: xr.Dataset, values: FloatArray) -> float:
 
 
 def cycles(dataset: xr.Dataset) -> float:
-    """Return how many cycles of the drive the run holds."""
+    """Return the number of drive cycles that the run holds."""
     time = column(dataset, "time")
     return float(time[-1] - time[0]) / float(dataset.attrs["cycle_period"]) if time.size else math.nan
 
@@ -163,7 +163,7 @@ def period(dataset: xr.Dataset) -> float:
 
 
 def in_settled(dataset: xr.Dataset) -> NDArray[np.bool_]:
-    """Tell which rows are looked at: of several cycles none of the first, in which the start dies away."""
+    """Return the rows to evaluate: of several cycles none of the first, in which the start dies away."""
     time, cycle = column(dataset, "time"), period(dataset)
     whole = time.size > 0 and time[-1] >= (2.0 - _ROUNDING) * cycle
     return np.asarray(time >= cycle) if whole else np.full(time.shape, True)

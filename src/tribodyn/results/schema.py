@@ -1,4 +1,4 @@
-"""What a result must be like to be worked with: checked once, when it is read.
+"""Schema of results: checked once, when a result is read.
 
 The variable and attribute tables say it; what reads a result afterwards need not ask again.
 """
@@ -34,7 +34,7 @@ LARGEST: Final = 1e60
 LONGEST: Final = 1_000_000
 """Length of a text, at most."""
 LISTS: Final = ("warnings", "notes")
-"""What a summary holds lists of."""
+"""Keys of a summary that hold lists."""
 MOST_VARIABLES: Final = 200
 """Variables of a sweep, at most: each is drawn."""
 _ADDED: Final = ("doubtful",)
@@ -42,11 +42,11 @@ _ADDED: Final = ("doubtful",)
 
 
 Kinds = Mapping[str, Mapping[str, Variable]]
-"""What results of each kind hold beside what all may hold."""
+"""Content of the results of each kind beside the common one."""
 
 
 def check(dataset: xr.Dataset, kinds: Kinds) -> None:
-    """Refuse what no run and no sweep writes.
+    """Refuse files that no run and no sweep writes.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def _case(dataset: xr.Dataset) -> Mapping[str, Any]:
 
 
 def _variables_of(dataset: xr.Dataset, case: Mapping[str, Any], kinds: Kinds) -> Mapping[str, Variable]:
-    """Return what its kind of result may hold; refuse a kind that is unknown, or not that of its case."""
+    """Return the content of its kind of result; refuse a kind that is unknown, or not that of its case."""
     named = case.get("case")
     kind = str(dataset.attrs.get("kind", ""))
     if kind not in kinds:
@@ -176,7 +176,7 @@ def _check_run(dataset: xr.Dataset, known: Mapping[str, Variable]) -> None:
 
 
 def _form_of(name: str, about: Variable) -> str:
-    """Return which numbers a variable may hold: only what a run has one of may be beyond all bounds."""
+    """Return the numbers that a variable may hold: only single numbers of a run may be infinite."""
     if name in COORDINATES or (len(about.dims) > 1 and about.dims[:1] not in (TIME, REVERSAL)):
         return NUMBER
     return GAPS if about.dims else OUTCOME

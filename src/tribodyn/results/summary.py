@@ -121,7 +121,7 @@ EFFORT: Final[dict[str, KeyResult]] = {
         _real_time_factor,
     ),
 }
-"""What every run has, by its name in ``summary.json``."""
+"""Key results of every run, by name in ``summary.json``."""
 
 
 DOUBTFUL: Final = 0.05

@@ -1,4 +1,4 @@
-"""What variables of results are, and those that results of several mechanisms have.
+"""Types of variables of results, and variables that several mechanisms share.
 
 One line a variable, listed once: here where mechanisms share it, beside the mechanism where it is its own.
 The builder, the NetCDF file and the documentation follow. All values are SI with angles in radians.
@@ -25,7 +25,7 @@ EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *REVERSAL, *STAGE))
 
 @dataclass(frozen=True)
 class Variable:
-    """What a reader needs to know about one variable.
+    """Description of one variable for a reader.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ COORDINATES: Final[dict[str, Variable]] = {
 
 
 def described(*tables: Table) -> dict[str, Variable]:
-    """Return what is known of quantities by the tables of the kernels that compute them."""
+    """Return the descriptions of quantities by the tables of the kernels that compute them."""
     return {q.name: Variable(q.unit, q.meaning, q.dimensions) for table in tables for q in table}
 
 
@@ -99,7 +99,7 @@ CAMPAIGN: Final[dict[str, Variable]] = {
     ),
     "wear_energy_lost": Variable("J", "stored contact energy that the jump takes away", JUMP),
 }
-"""What every wear campaign writes down at its stops; a mechanism adds what it says of each cycle."""
+"""Numbers of every wear campaign at its stops; a mechanism adds its own of each cycle."""
 
 STAGES: Final[dict[str, Variable]] = {
     "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z")),
@@ -115,4 +115,4 @@ POINT_TEXTS: Final[dict[str, str]] = {
     "doubtful": "why the numbers should not be used; empty where they can be",
     "points": "name of the folder of the point below points/",
 }
-"""What a sweep says of each of its points in words, with its meaning; all else it holds are numbers."""
+"""Texts of a sweep on each of its points, with their meanings; all else it holds are numbers."""

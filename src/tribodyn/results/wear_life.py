@@ -1,4 +1,4 @@
-"""How deep surfaces are worn over drive cycles, and when they reach the depth limit."""
+"""Wear depth of surfaces over drive cycles, and life to the depth limit."""
 
 from __future__ import annotations
 

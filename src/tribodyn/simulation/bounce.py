@@ -16,7 +16,7 @@ from tribodyn.joints.resolution import resolving
 from tribodyn.mechanisms.bushing import Bearing
 
 _FINER: Final = 6
-"""How many times finer around than by default; along the axis nothing changes."""
+"""Refinement of the grid around; along the axis nothing changes."""
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
 
 @dataclass(frozen=True)
 class CampaignPlan:
-    """What is asked of a campaign.
+    """Request for a campaign.
 
     Attributes
     ----------

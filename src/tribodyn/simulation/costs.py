@@ -98,7 +98,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Estimate:
-    """What a run is expected to take.
+    """Expected time and memory of a run.
 
     Attributes
     ----------

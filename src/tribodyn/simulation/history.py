@@ -1,4 +1,4 @@
-"""What a wear campaign writes down at every stop, and how many worn profiles it keeps."""
+"""Numbers of a wear campaign at every stop, and the number of worn profiles that it keeps."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ def _archard(system: WearingSystem, wear: groups.Wear) -> Archard:
 
 
 def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> ResultPart:
-    """Return what is worn off the partner of the bushing; nothing where only the bushing wears."""
+    """Return the wear of the bushing's partner; nothing where only the bushing wears."""
     bushing, partner = (np.broadcast_to(rate, depth.shape) for rate in system.wear_rates)
     both = np.maximum(bushing + partner, np.finfo(np.float64).tiny)
     own = depth * partner / both
@@ -101,7 +101,7 @@ def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> Resu
 def _worn(
     system: WearingSystem, depth: FloatArray, wear: groups.Wear, attributes: Mapping[str, object]
 ) -> ResultPart:
-    """Return what a result says of the wear after its run; ``depth`` at the nodes [m]."""
+    """Return the wear in a result after its run; ``depth`` at the nodes [m]."""
     if not depth.size:
         return ResultPart()
     volume = worn_volume(depth, system.nodes.area)
@@ -118,7 +118,7 @@ def _worn(
 
 
 def _deepest(system: WearingSystem, depth: FloatArray, limit: float | None) -> list[str]:
-    """Return what is worn deepest and how near it is to the depth limit, in words; nothing without one."""
+    """Return the deepest wear and its distance from the depth limit, in words; nothing without one."""
     if limit is None or not depth.any():
         return []
     node = int(np.argmax(depth))
@@ -127,7 +127,7 @@ def _deepest(system: WearingSystem, depth: FloatArray, limit: float | None) -> l
 
 
 def _uncertain(attributes: Mapping[str, object]) -> list[str]:
-    """Return how uncertain a life is, in words; nothing where its wear rate is known."""
+    """Return the uncertainty of a life in words; nothing where its wear rate is known."""
     if "wear_life_factor" not in attributes:
         return []
     return [
@@ -211,7 +211,7 @@ class _Cycles:
 
     @property
     def plan(self) -> CampaignPlan:
-        """What the case asks for."""
+        """Campaign of the case."""
         wear, nodes = self.case.wear, self.system.nodes
         return CampaignPlan(
             cycles=wear.cycles,
@@ -258,7 +258,7 @@ class _Cycles:
 
 
 def _not_reached(case: WearingCase, campaign: Campaign) -> list[str]:
-    """Say how long the bushing would last if all went on as between the last two stops."""
+    """Report the bushing's life if all went on as between the last two stops."""
     history, wear = campaign.history, case.wear
     if math.isfinite(campaign.life) or history["wear_cycles"].size < 2:
         return []

@@ -26,7 +26,7 @@ _LARGEST_SUMMARY: Final = 1_000_000
 
 
 class Archive:
-    """Where points are kept.
+    """Storage of points.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ _GAUSSIAN: Final = 1.4826
 """Standard deviation over the median of magnitudes, for normal residuals."""
 _NEAR: Final = 0.1
 _TRIALS: Final = 5
-"""How near the end of a profile interval is found, as a share of its width, and steps to it at most."""
+"""Accuracy of the end of a profile interval, as a share of its width, and largest number of steps to it."""
 _SCREENED: Final = 4
 """Points whose cost is compared, over the number of starts that are made from the best of them."""
 _FAILED: Final = 1e3
@@ -69,7 +69,7 @@ class VariedKey:
 
     @classmethod
     def of(cls, case: Case, text: str, option: str = "--vary") -> VariedKey:
-        """Return what ``PATH=LOW..HIGH`` asks of a case."""
+        """Return the request ``PATH=LOW..HIGH`` for a case."""
         path, equals, values = (part.strip() for part in text.partition("="))
         if not equals:
             raise InputError(
@@ -285,7 +285,7 @@ def _cost(found: LeastSquares) -> float:
 
 
 def _along(found: LeastSquares, which: int, place: float) -> dict[str, float]:
-    """Return where the other parameters are likely to be when one is moved, by the covariance."""
+    """Return the likely values of the other parameters when one is moved, by the covariance."""
     covariance = found.covariance()
     slope = covariance[:, which] / max(covariance[which, which], 1e-300)
     moved = np.clip(found.values + slope * (place - found.values[which]), 1.0, 2.0)
@@ -293,7 +293,7 @@ def _along(found: LeastSquares, which: int, place: float) -> dict[str, float]:
 
 
 def _crossing(rise: Callable[[float], float], allowed: float, best: float, step: float, end: float) -> float:
-    """Return where the rise of the cost reaches what is allowed, or the end of the range.
+    """Return the point at which the cost has risen by the allowed amount, or the end of the range.
 
     The rise is nearly a parabola, so that its root is found by a few steps in proportion.
     """

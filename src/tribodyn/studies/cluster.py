@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from distributed import Client, Future, Security
 
 _PATIENCE: Final = 15.0
-"""How long a scheduler may be out of reach [s]."""
+"""Time for which a scheduler may be out of reach [s]."""
 _GONE: Final = "the Dask scheduler is gone; all points that had finished are saved"
 _ENCRYPTED: Final = "tls://"
 
@@ -200,7 +200,7 @@ def _arriving(
 
 
 def _demand_connection(client: Client, heard: float) -> float:
-    """Return when the scheduler was last known to be there; give up after a while without it."""
+    """Return the time of the scheduler's last answer; give up after a while without it."""
     if client.status == "running":
         return time.monotonic()
     if client.status == "closed" or time.monotonic() - heard > _PATIENCE:
@@ -209,7 +209,7 @@ def _demand_connection(client: Client, heard: float) -> float:
 
 
 def _outcome(future: Future[Any]) -> PointOutcome:
-    """Return what came of a point; what Dask reports says nothing about the point itself and is not final."""
+    """Return the outcome of a point; reports of Dask are not about the point itself and not final."""
     from distributed import KilledWorker
 
     try:

@@ -1,4 +1,4 @@
-"""Which joint causes how much of the error of an output.
+"""Contribution of each joint to the error of an output.
 
 The case is simulated with all its clearances, and once for each of them with every other joint ideal. With
 the error e of the whole, the error eₖ with joint k alone, and ⟨·,·⟩ the mean of a product over time (of
@@ -43,7 +43,7 @@ _SILENT: Final = Watcher()
 
 @dataclass(frozen=True)
 class OutputShares:
-    """How the error of an output is made up.
+    """Parts of the error of an output.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ def contributions(
     workers: int | None = None,
     watcher: Watcher = _SILENT,
 ) -> tuple[OutputShares, ...]:
-    """Return how the error of each output of a case is made up by its joints.
+    """Return the parts of the error of each output of a case by its joints.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a sweep is expected to take."""
+"""Expected time of a sweep."""
 
 from __future__ import annotations
 

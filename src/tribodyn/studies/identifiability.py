@@ -1,4 +1,4 @@
-"""What data say about fitted keys: which they do not determine, which trade off, what would help."""
+"""Identifiability of fitted keys: which keys the data leave open, which trade off, what would help."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def statements(calibration: Calibration, found: LeastSquares) -> list[str]:
 
 
 def _helpful(calibration: Calibration, found: LeastSquares, information: FloatArray) -> str:
-    """Return which measurement over time would narrow the widest interval most; empty without one."""
+    """Return the measurement over time that would narrow the widest interval most; empty without one."""
     shares = np.clip(found.values - 1.0, 0.0, 1.0 - STEP)
     values = [one.value(float(share)) for one, share in zip(calibration.keys, shares, strict=True)]
     middle = calibration.run(values)

@@ -1,4 +1,4 @@
-"""What every runner is given, and what it gives back."""
+"""Inputs and outputs of every runner."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Finished: TypeAlias = Iterator[tuple[Point, PointOutcome]]
 LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
 _SOON: Final = 5.0
-"""How long workers may get ready before a user reads why nothing happens [s]."""
+"""Time after which a user reads why workers are not ready [s]."""
 _PREPARING: Final = (
     "preparing the workers; where the equations are not compiled yet this takes a minute or two"
 )
@@ -23,7 +23,7 @@ _PREPARING: Final = (
 
 @dataclass(frozen=True)
 class SweepJob:
-    """What is to be computed.
+    """Points to be computed.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class SweepJob:
 
 
 def stop_while_preparing(job: SweepJob) -> Callable[[], bool]:
-    """Return what asks whether to stop, and says after a while why there are no points yet."""
+    """Return a check for a stop that reports after a while why there are no points yet."""
     began, news = time.monotonic(), [_PREPARING]
 
     def stop() -> bool:

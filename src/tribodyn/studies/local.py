@@ -57,7 +57,7 @@ def local(job: SweepJob, workers: int | None) -> Finished:
 
 
 def _affordable(workers: int, note: Callable[[str], None]) -> int:
-    """Return how many workers there may be of so many, for each takes handles of this process."""
+    """Return the largest number of workers among so many, for each takes handles of this process."""
     free = machine.free_handles() - _OTHER_HANDLES
     room = free // _HANDLES
     if room < 1:
@@ -73,7 +73,7 @@ def _affordable(workers: int, note: Callable[[str], None]) -> int:
 
 @dataclass
 class Task:
-    """What a worker is to do: a function of a module, and its arguments."""
+    """Call of a worker: a function of a module, and its arguments."""
 
     function: Callable[..., Any]
     arguments: tuple[Any, ...]

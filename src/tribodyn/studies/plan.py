@@ -27,7 +27,7 @@ POINT: Final = "point"
 
 @dataclass(frozen=True)
 class Sampling:
-    """How distributions are sampled.
+    """Sampling of distributions.
 
     Attributes
     ----------
@@ -85,11 +85,11 @@ class Axis:
 
     @property
     def size(self) -> int:
-        """How many values there are."""
+        """Number of values."""
         return len(next(iter(self.columns.values())))
 
     def changes(self, i: int) -> dict[str, str]:
-        """Return what is set at place ``i``."""
+        """Return the settings at place ``i``."""
         return {key.path: written(key, values[i]) for key, values in self.columns.items()}
 
 

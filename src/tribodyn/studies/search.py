@@ -26,7 +26,7 @@ from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written
 
 WITHIN: Final = 0.01
-"""How near the root is found, as a share of the range."""
+"""Accuracy of the root, as a share of the range."""
 _DIGITS: Final = 5
 """Digits of the values that are tried: a value that a person can read, and that reads back exactly."""
 
@@ -51,7 +51,7 @@ class Limit:
 
     @property
     def sign(self) -> str:
-        """How the number is compared with the limit."""
+        """Comparison of the number with the limit."""
         return "at least" if self.at_least else "at most"
 
     def is_kept(self, number: float) -> bool:
@@ -61,7 +61,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked: where a number reaches its limit.
+    """Search for the value at which a number reaches its limit.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class Question:
 
     @property
     def key_result(self) -> KeyResult:
-        """What is known of the number."""
+        """Properties of the number."""
         return key_results_of_case(self.case)[self.until.name]
 
 
@@ -242,11 +242,11 @@ def find(
 
 
 LISTED: Final = "`tribodyn run` writes those that a case has to summary.json."
-"""Where the names of key results are listed, in words."""
+"""Places in which the names of key results are listed, in words."""
 
 
 def question(case: Case, vary: str, values: str, until: Limit) -> Question:
-    """Return what is asked, checked.
+    """Return the search, checked.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What samples say about the population they were drawn from."""
+"""Statistics of samples for the population from which they were drawn."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def _all(part: xr.Dataset) -> Statistics:
 
 @dataclass(frozen=True)
 class Share:
-    """How many points keep a limit.
+    """Share of points that keep a limit.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ def _share(values: FloatArray, limit: float, sampled: bool) -> Share:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Which share of the variance of a number a parameter makes.
+    """Share of a parameter in the variance of a number.
 
     Attributes
     ----------

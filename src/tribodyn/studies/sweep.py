@@ -38,7 +38,7 @@ RECORD: Final = "sweep.json"
 
 @dataclass(frozen=True)
 class Arrival:
-    """How far a sweep has come.
+    """Progress of a sweep.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Means:
-    """How a sweep is computed; none of this changes a number.
+    """Options of a sweep's computation; none of them changes a number.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ def _nothing(_: object) -> None:
 
 @dataclass(frozen=True)
 class Watcher:
-    """Who hears of the progress of a sweep, and may end it.
+    """Listener to the progress of a sweep, which may end it.
 
     Attributes
     ----------
@@ -172,7 +172,7 @@ def sweep(
 def run(
     plan: SweepPlan, directory: Path | None, means: Means = Means(), watcher: Watcher = Watcher()
 ) -> xr.Dataset:
-    """Compute what is missing of a plan and merge all of it.
+    """Compute the missing points of a plan and merge all of it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What local workers are forked from: all is imported in it, and the equations of a case are loaded.
+"""Template of local workers, with everything imported and the equations of a case loaded.
 
 The fork server imports this module, which is when it prepares itself. So does a worker that takes the place
 of one that died begin at once.

@@ -1,4 +1,4 @@
-"""What varies: from ``joint.clearance = 10 um:50 um:10 um`` to values, or to a distribution."""
+"""Variations of a key: from ``joint.clearance = 10 um:50 um:10 um`` to values, or to a distribution."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _CALL: Final = re.compile(r"\s*([A-Za-z_]+)\s*\((.*)\)\s*", re.DOTALL)
 _SCALABLE: Final = ("quantity", "number")
 
 Asked: TypeAlias = str | Iterable[object]
-"""What a user asks one parameter to be: text as on the command line, or values."""
+"""Request for one parameter: text as on the command line, or values."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def written(key: Key, value: Value) -> str:
 
 
 def variation(key: Key, asked: Asked) -> Variation:
-    """Return what a user asks of one key.
+    """Return a user's request for one key.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a worker does: one point, from the text of a case to numbers and bytes.
+"""Task of a worker: one point, from the text of a case to numbers and bytes.
 
 It writes no file but the whole result, where it is given a folder for that.
 """
@@ -18,7 +18,7 @@ from tribodyn.results.summary import Summary
 
 @dataclass(frozen=True)
 class PointOutcome:
-    """What came of a point.
+    """Outcome of a point.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class PointOutcome:
 
 
 def failed(reason: str, *, final: bool) -> PointOutcome:
-    """Return what is known of a point that gave no result."""
+    """Return the facts on a point that gave no result."""
     return PointOutcome({"title": "", "status": "failed", "failure": reason, "warnings": []}, final=final)
 
 
@@ -105,7 +105,7 @@ def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bo
 
 
 def warm_up(toml: str) -> None:
-    """Have what a case needs compiled, if it is not, and load it.
+    """Have a case's kernels compiled, if they are not, and load them.
 
     A case that fails here fails again as a point, which then has the reason. An empty text only imports.
     """
@@ -117,7 +117,7 @@ def warm_up(toml: str) -> None:
 
 
 def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
-    """Import what points need, and load the equations of a case if they are compiled.
+    """Import the packages for points, and load the equations of a case if they are compiled.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
 
 
 def import_what_points_need() -> None:
-    """Import what :func:`compute` does."""
+    """Import the packages of :func:`compute`."""
     import xarray as xr
 
     from tribodyn import simulation  # noqa: F401

@@ -27,7 +27,7 @@ _STRONG_LAY: Final = 0.5
 
 @dataclass(frozen=True)
 class Treatment:
-    """What is done to a scan before it is measured.
+    """Treatment of a scan before evaluation.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ def _measured(level: Scan, treatment: Treatment) -> MeasuredSurface:
 
 
 def _border(scan: Scan, cutoff: float) -> list[int]:
-    """Return how many points are left in each direction within half a wave from the border."""
+    """Return the number of points in each direction within half a wave from the border."""
     widths = [math.ceil(0.5 * cutoff / step) for step in scan.spacing]
     return [n - 2 * width for n, width in zip(scan.heights.shape, widths, strict=True)]
 

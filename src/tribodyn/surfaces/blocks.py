@@ -86,7 +86,7 @@ def blocks(stream: BinaryIO, source: str) -> Iterator[Block]:
 
 
 def _end(content: bytes, number: int, source: str) -> int:
-    """Return where a block ends: after the last line of the content, or the last field of a long one."""
+    """Return the end of a block: after the last line of the content, or the last field of a long one."""
     # A carriage return at the very end may have its line feed in what comes next.
     end = max(content.rfind(b"\n"), content.rfind(b"\r", 0, -1)) + 1
     if end == 0:

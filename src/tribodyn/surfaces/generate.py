@@ -41,7 +41,7 @@ class SelfAffine:
     shortest: float
 
     def __post_init__(self) -> None:
-        """Refuse what is no spectrum."""
+        """Refuse invalid spectra."""
         if not (self.sigma > 0.0 and 0.0 < self.hurst < 1.0 and 0.0 < self.shortest < self.roll_off):
             raise InputError("needs sigma > 0, 0 < hurst < 1 and 0 < shortest < roll_off")
 

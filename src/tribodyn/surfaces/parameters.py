@@ -111,7 +111,7 @@ def numbers(surface: MeasuredSurface) -> dict[str, float]:
 
 
 def document(surface: MeasuredSurface, others: list[MeasuredSurface]) -> dict[str, Any]:
-    """Return what is stored of a surface: numbers, treatment, remarks, and the numbers at other cut-offs.
+    """Return the stored data of a surface: numbers, treatment, remarks, and the numbers at other cut-offs.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ class Scan:
     source: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse what is neither a profile nor a map."""
+        """Refuse an array that is neither a profile nor a map."""
         if self.heights.ndim not in (1, 2) or len(self.spacing) != self.heights.ndim:
             raise InputError("a surface is a line or a table of heights with a spacing for each direction")
         if not all(0.0 < step < math.inf for step in self.spacing):

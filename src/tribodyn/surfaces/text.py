@@ -41,7 +41,7 @@ _NOTE: Final = re.compile(r"#\s*(unit|spacing)\s*[:=]\s*(.+?)\s*", re.IGNORECASE
 
 @dataclass(frozen=True)
 class Scale:
-    """What the numbers of a file mean, where the file does not say it.
+    """Units and spacing of the numbers of a file, where the file does not give them.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a validation set returns: numbers with uncertainties and verdicts, and curves for its plot."""
+"""Result of a validation set: numbers with uncertainties and verdicts, and curves for its plot."""
 
 from __future__ import annotations
 
@@ -201,7 +201,7 @@ class Plot:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a set returns."""
+    """Result of a set."""
 
     comparisons: tuple[Comparison, ...]
     plot: Plot | None = None

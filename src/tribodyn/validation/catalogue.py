@@ -88,7 +88,7 @@ class ValidationSet:
 
     @property
     def title(self) -> str:
-        """What was measured, in a few words."""
+        """Measured quantity in a few words."""
         return str(self.table["title"])
 
     @property
@@ -124,7 +124,7 @@ class ValidationSet:
         return (self.folder / "README.md").read_text(encoding="utf-8")
 
     def run(self) -> Outcome:
-        """Compute what was measured."""
+        """Compute the measured quantity."""
         module = importlib.import_module(f"{__package__}.sets.{self.name}.compare")
         return cast("Callable[[ValidationSet], Outcome]", module.compare)(self)
 

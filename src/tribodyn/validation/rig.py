@@ -105,7 +105,7 @@ class Rig(ValidationSet):
         return Outcome(tuple(rows), _plot(drawn) if drawn else None)
 
     def _part(self, row: Mapping[str, str], run: xr.Dataset) -> MeasuredCurve | MeasuredNumber:
-        """Return what a row measures: a number, or a column of the file that it names."""
+        """Return the measured quantity of a row: a number, or a column of the file that it names."""
         if not _is_file(row["measured"]):
             return MeasuredNumber(row["quantity"], 0.0, math.nan)
         try:

@@ -1,1 +1,1 @@
-"""What a result means: series, events, charts over time, pictures of the bushing. Nothing here draws."""
+"""Interpretation of results without drawing: series, events, charts over time, pictures of the bushing."""

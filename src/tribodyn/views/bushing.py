@@ -18,7 +18,7 @@ from tribodyn.views.unrolled import height_marks, rolled, shortened, wall_angles
 
 @dataclass(frozen=True)
 class Unrolled:
-    """Where the nodes of the bushing lie when it is cut open.
+    """Nodes of the bushing when it is cut open.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Unrolled:
         usual: Callable[[NDArray[np.float32]], float] = np.max,
         stages: Sequence[str] = (),
     ) -> Payload:
-        """Return what the script ``field`` draws: fields in 255 steps of their own peaks.
+        """Return the data of the script ``field``: fields in 255 steps of their own peaks.
 
         Parameters
         ----------
@@ -98,12 +98,12 @@ class Unrolled:
         }
 
     def _drawn(self, z: FloatArray) -> FloatArray:
-        """Return where heights [mm] are drawn."""
+        """Return the places of heights in the picture [mm]."""
         return shortened(z, self.empty, float(self.z[-1]))
 
 
 def unrolled(dataset: xr.Dataset, cut: float, empty: float) -> Unrolled:
-    """Return where the nodes of a result lie.
+    """Return the places of a result's nodes.
 
     Parameters
     ----------

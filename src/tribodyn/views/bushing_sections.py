@@ -142,7 +142,7 @@ def _path(motion: Cubics, times: FloatArray, clearance: float) -> FloatArray:
 
 
 def _at(motion: Cubics, times: FloatArray) -> FloatArray:
-    """Return where a centre is at the frames, shape (n_frames, 2); NaN where a run hardly began."""
+    """Return the places of a centre at the frames, shape (n_frames, 2); NaN where a run hardly began."""
     if motion.x.size < 2:
         return np.full((times.size, 2), np.nan)
     return motion(np.clip(times, motion.x[0], motion.x[-1]))

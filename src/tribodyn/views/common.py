@@ -1,4 +1,4 @@
-"""What several results of one mechanism have in common, so that their peaks can be compared."""
+"""Common scales of several results of one mechanism, so that their peaks can be compared."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def _between(result: xr.Dataset, begin: float, end: float) -> xr.Dataset:
 
 
 def _phases(result: xr.Dataset, begin: float) -> FloatArray:
-    """Return how long after ``begin`` [s] the reversals are that the stretch holds, shape (n,)."""
+    """Return the times of a stretch's reversals after ``begin`` [s], shape (n,)."""
     turns, settling = series(result, "reversal_time"), float(result.attrs["impact_time"])
     held = turns + settling <= float(result.attrs["time_reached"])
     if result.attrs["start"] != CARRIED:

@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 
 LINE_ERROR: Final = 0.002
-"""What a straight line may miss of the motion in a clearance, over the clearance."""
+"""Largest error of a straight line for the motion in a clearance, over the clearance."""
 _MOST: Final = 16
 """Samples between two rows, at most."""
 

@@ -96,7 +96,7 @@ class EnergyBalance:
         return {**self.put_in, **self.gained}
 
     def left_over(self, columns: Mapping[str, FloatArray]) -> FloatArray:
-        """Return what is left over [J], shape (n_t,); a column that is not there is zero."""
+        """Return the residual [J], shape (n_t,); a column that is not there is zero."""
         left = sum(_since_start(columns[name]) for name in self.gained if name in columns)
         return np.asarray(left - sum(columns[name] for name in self.put_in if name in columns))
 

@@ -1,4 +1,4 @@
-"""When the motion turns around."""
+"""Reversals of the motion."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from tribodyn.views.series import peak, series
 
 
 def impact_time(dataset: xr.Dataset) -> float:
-    """Return how long impacts last after the start and each reversal [s]; the rest is smooth motion."""
+    """Return the length of impacts after the start and each reversal [s]; the rest is smooth motion."""
     return float(dataset.attrs.get("impact_time", 0.0))
 
 
 def reversal_times(dataset: xr.Dataset) -> FloatArray:
-    """Return when vane or drive reverse, stop or start [s], shape (n,); never where nothing is driven.
+    """Return the times at which vane or drive reverse, stop or start [s], shape (n,); none without a drive.
 
     As the result holds it, else where the ideal vane speed changes its sign.
     """

@@ -1,4 +1,4 @@
-"""How many times a scene magnifies the motion in a clearance."""
+"""Magnification of the motion in a clearance in a scene."""
 
 from __future__ import annotations
 

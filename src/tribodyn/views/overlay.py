@@ -74,7 +74,7 @@ BUSHING: Final = (
     ),
     Overlay("pressure", "Peak pressure", (scaled("p_max", "peak pressure [MPa]", 1e-6),)),
 )
-"""What can be compared of any shaft in its bushing."""
+"""Comparison of any shafts in their bushings."""
 
 
 def overlays(planned: Sequence[Overlay], runs: Mapping[str, xr.Dataset]) -> tuple[Section, ...]:
@@ -103,7 +103,7 @@ def overlays(planned: Sequence[Overlay], runs: Mapping[str, xr.Dataset]) -> tupl
 def _drawer(
     quantities: Sequence[OverlayQuantity], runs: Mapping[str, xr.Dataset]
 ) -> Callable[[xr.Dataset], Payload | None]:
-    """Return what makes the data of one figure; the result it is given is not looked at."""
+    """Return a maker of the data of one figure that ignores its result."""
 
     def data(_: xr.Dataset) -> dict[str, Any] | None:
         panels = [Panel(quantity.label, _curves(quantity, runs)) for quantity in quantities]

@@ -14,7 +14,7 @@ from tribodyn.views.events import direction
 from tribodyn.views.series import series
 
 _EVEN: Final = 241
-"""Moments where a result holds no pressure frames of its own."""
+"""Moments of results without pressure frames of their own."""
 _SHORT: Final = 0.5
 """Runs shorter than this [s] are shown in milliseconds."""
 
@@ -48,7 +48,7 @@ def at_frames(dataset: xr.Dataset, name: str, scale: float = 1.0) -> FloatArray:
 
 
 def clock(dataset: xr.Dataset) -> dict[str, Any] | None:
-    """Return what the time slider shows; nothing where there is no playback."""
+    """Return the content of the time slider; nothing where there is no playback."""
     times = playback_times(dataset)
     if times.size < 2:
         return None

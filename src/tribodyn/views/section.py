@@ -1,4 +1,4 @@
-"""What sections and chapters of the report are."""
+"""Types of sections and chapters of the report."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 import xarray as xr
 
 Payload: TypeAlias = Mapping[str, Any]
-"""What the script of a figure reads: texts, numbers, lists, mappings and arrays."""
+"""Data for the script of a figure: texts, numbers, lists, mappings and arrays."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Section:
     still: str = ""
 
     def payload(self, dataset: xr.Dataset) -> Payload | None:
-        """Return what the script reads; nothing where the result does not hold it."""
+        """Return the data of the script; nothing where the result does not hold it."""
         if any(name not in dataset.variables for name in self.needs):
             return None
         return self.data(dataset)
@@ -81,7 +81,7 @@ OVER_TIME: Final = (
 
 
 def choice(widget: str, label: str, parts: Mapping[str, Payload | None]) -> Payload | None:
-    """Return what the script ``choice`` reads; nothing where there is nothing to choose.
+    """Return the data of the script ``choice``; nothing where there is nothing to choose.
 
     Parameters
     ----------

@@ -12,9 +12,9 @@ from tribodyn.core.arrays import FloatArray
 CUTS: Final = (90.0, 270.0, 180.0, 0.0, 45.0, 135.0, 225.0, 315.0)
 """Angles at which the bushing is cut open [deg], the preferred one first."""
 _BETWEEN: Final = tuple(float(cut) for cut in range(0, 360, 15) if cut not in CUTS)
-"""Where it is cut, too, if there is load at all of those."""
+"""Further angles of the cut, for load at all of the others."""
 _BORDERS: Final = (30.0, 15.0, 5.0)
-"""What should be free on both sides of a cut [deg], or at least."""
+"""Widths of free borders on both sides of a cut [deg], the best first."""
 
 WALL: Final = "angle from +X towards +Y [°]"
 """Label of an axis with the angles of :func:`wall_angles`."""
@@ -127,7 +127,7 @@ def z_label(empty: float) -> str:
 
 
 def shortened(z: FloatArray, empty: float, half: float) -> FloatArray:
-    """Return where heights are drawn when the middle ``|z| < empty`` gets an eighth of the room.
+    """Return the places of heights when the middle ``|z| < empty`` gets an eighth of the room.
 
     Parameters
     ----------

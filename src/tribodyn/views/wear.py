@@ -33,7 +33,7 @@ PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
         {"wear_angle_error_max": "largest in the cycle", "wear_angle_error_rms": "rms over the cycle"},
     ),
 )
-"""What is drawn below the depth where a result has it: label, size of its unit, and curves by their names."""
+"""Chart below the depth where a result has one: label, size of its unit, and curves by their names."""
 
 
 def fitting_unit(largest: float) -> tuple[str, float]:

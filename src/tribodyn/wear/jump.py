@@ -1,4 +1,4 @@
-"""How many cycles one simulated cycle may stand for.
+"""Number of cycles that one simulated cycle may stand for.
 
 A jump of N cycles repeats the sliding load of the simulated cycle N times. That is right as long as the
 worn shape does not change the load. So N is limited twice:
@@ -64,7 +64,7 @@ class JumpControl:
         return min(max(wanted, _LEAST_SHARE * self.first), self.depth)
 
     def cycles(self, gain: float, depth_per_cycle: FloatArray, remaining: int) -> int:
-        """Return how many cycles a jump takes, at least one.
+        """Return the number of cycles of a jump, at least one.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What a person can turn in a case: one control a key, those that matter most first."""
+"""Controls of a case: one a key, the most important ones first."""
 
 from __future__ import annotations
 
@@ -92,11 +92,11 @@ def _number(value: Value | None) -> float | None:
 
 
 _GOES_ON: Final = re.compile(r"(at|between|by|for|from|in|its|linear|of|over|where|which|with)\b")
-"""How a meaning begins that continues from the name of its key."""
+"""Beginning of a meaning that continues from the name of its key."""
 
 
 def label(case: Case, key: Key) -> str:
-    """Return what a key is called where there is little room.
+    """Return a short label of a key.
 
     In a table that the user has named its path says more than its meaning, which all such tables share.
     """

@@ -1,4 +1,4 @@
-"""What a run will take, by what runs took so far."""
+"""Estimate of the processor time of a run from earlier runs."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from tribodyn.core.errors import InputError
 MOST_ROWS: Final = 100_000
 """Rows of a result that a page is sent, at most."""
 _LAST: Final = 5
-"""How many runs say what the next one takes: one alone, that the machine held up, would say too much."""
+"""Number of runs from which the next one is estimated: a single one may have met a busy machine."""
 _NO_GRID: Final = ("run", "wear")
 """Tables whose whole numbers do not say how fine a grid is."""
 _TOLERANCE_POWER: Final = -0.2
-"""How the number of steps follows the relative tolerance, for a method of the fourth order or so."""
+"""Exponent of the number of steps over the relative tolerance, for a method of the fourth order or so."""
 
 
 @dataclass
@@ -36,7 +36,7 @@ class Costs:
     seconds: Mapping[Choices, tuple[float, ...]] = field(default_factory=dict)
 
     def note(self, case: Case, seconds: float) -> None:
-        """Remember what a run took."""
+        """Remember the time of a run."""
         choices = choices_of(case)
         last = (*self.seconds.get(choices, ()), seconds / size(case))[-_LAST:]
         # Anew: threads may be looking at the ones before.
@@ -47,7 +47,7 @@ class Costs:
         return choices_of(case) in self.seconds
 
     def expected(self, case: Case) -> float | None:
-        """Return what a run will take [s], as if all equations cost the same; None before any run."""
+        """Return the expected time of a run [s], as if all equations cost the same; None before any run."""
         seconds = self.seconds
         if not seconds:
             return None
@@ -56,7 +56,7 @@ class Costs:
 
 
 def size(case: Case) -> float:
-    """Return how much work a case is: its time, its nodes and its tolerance, in no particular unit."""
+    """Return the amount of work of a case: its time, its nodes and its tolerance, in no particular unit."""
     found = case.duration
     for path, key in keys_in(case).items():
         value = case.at(path) if key.kind == "count" and path.partition(".")[0] not in _NO_GRID else None

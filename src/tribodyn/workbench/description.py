@@ -1,4 +1,4 @@
-"""What a page shows of a case: its controls, key results and charts, and what can be edited."""
+"""Description of a case for a page: its controls, key results and charts, and its editable tables."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
 PAGE: Final = "page.html"
 _FOLDERS: Final = ("tribodyn.report.assets", "tribodyn.workbench.assets")
-"""Where assets are; of two with one name the later one is served."""
+"""Folders of assets; of two with one name the later one is served."""
 _KINDS: Final = {
     ".js": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",

@@ -28,7 +28,7 @@ class InvalidMessage(ValueError):
 
 @dataclass(frozen=True)
 class Edit:
-    """How a model differs from the case of the workbench.
+    """Difference of a model from the case of the workbench.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a slider goes over: from where, to where, in which steps, all of them round numbers."""
+"""Range of a slider: both ends and the steps, all of them round numbers."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from tribodyn.cases.units import number_in, to_si
 _MOST_STEPS: Final = 10
 """Steps from zero to the value of the case, at least."""
 _BEYOND: Final = 2.5
-"""How many times the value of the case the slider reaches at least."""
+"""Least ratio of the slider's upper end to the value of the case."""
 _ROUND: Final = (Decimal(1), Decimal(2), Decimal(5), Decimal(10))
 
 
 @dataclass(frozen=True)
 class Track:
-    """What a slider goes over, in the unit in which the key is shown.
+    """Range of a slider, in the unit in which the key is shown.
 
     Attributes
     ----------

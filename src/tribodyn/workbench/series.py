@@ -24,7 +24,7 @@ from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.worker_pool import Failed, GivenUp
 
 AROUND: Final = (-0.10, -0.05, 0.0, 0.05, 0.10)
-"""Where a slope is fitted, relative to the value."""
+"""Points at which a slope is fitted, relative to the value."""
 _DIGITS: Final = 10
 
 Report = Callable[[Mapping[str, Any]], None]
@@ -228,7 +228,7 @@ def slope_of(state: ServerState, origin: Origin, asked: Slope) -> SeriesPlan:
 
 
 def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:
-    """Return how key results follow a key, in percent a percent, with the standard error of that.
+    """Return the slopes of key results over a key, in percent a percent, with their standard errors.
 
     The straight line of least squares through all points; numbers that a point lacks, or that are zero on
     average, have none.

@@ -29,7 +29,7 @@ from tribodyn.workbench.work import Limits
 from tribodyn.workbench.worker_pool import WorkerPool
 
 _MMAP_THRESHOLD: Final = -3
-"""What ``mallopt`` calls the size from which a block comes from the system and goes back there."""
+"""Parameter of ``mallopt``: the size from which a block comes from the system and goes back there."""
 _LARGE: Final = 131_072
 """The size that glibc begins with [bytes]."""
 

@@ -174,7 +174,7 @@ class ServerState:
         return {"type": "hello", **self.described(self.origin, Edit())}
 
     def described(self, origin: Origin, edit: Edit) -> dict[str, Any]:
-        """Return what a page shows of a case, and of the edit that made it."""
+        """Return the description of a case for a page, and of the edit that made it."""
         return {**description(origin), "edit": asdict(edit), "limits": self._limits}
 
     @property

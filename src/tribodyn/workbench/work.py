@@ -36,7 +36,7 @@ _GB: Final = 1e9
 
 @dataclass(frozen=True)
 class Limits:
-    """What a worker may take.
+    """Limits of a worker.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ def picture(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop
 
 
 def shown(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return what the page shows of a result; sections are the same as in a report."""
+    """Return the page's content for a result; sections are the same as in a report."""
     from tribodyn.mechanisms.results import known, mechanism_of, summarise
     from tribodyn.views.playback import clock
 
@@ -98,7 +98,7 @@ def shown(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def _events(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return when the motion turns around, and when impacts follow [s]."""
+    """Return the times of reversals and the length of the impacts after them [s]."""
     from tribodyn.views.events import impact_time, reversal_times
 
     turns = [float(turn) for turn in reversal_times(dataset)]

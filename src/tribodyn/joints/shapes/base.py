@@ -1,4 +1,4 @@
-"""What a shape is: it puts nodes on the surfaces of a joint."""
+"""Protocol of shapes: a shape puts nodes on the surfaces of a joint."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class Points:
-    """Where smooth surfaces of a shape touch: circles, or one sphere.
+    """Points of contact of smooth surfaces of a shape: circles, or one sphere.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class Shape(Protocol):
         """Return the surfaces with ``grid`` nodes along their two directions."""
 
     def points(self) -> Points:
-        """Return where smooth surfaces touch, or say that they do not touch at points."""
+        """Return the points of contact of smooth surfaces, or refuse a shape that has none."""
 
 
 def check_positive(shape: str, **sizes: float) -> None:

@@ -25,7 +25,7 @@ FEWEST_ACROSS = 4
 
 
 def rows_of_face(n_z: int, width: float, length: float) -> int:
-    """Return how many rows resolve an end face as ``n_z`` resolve the barrel.
+    """Return the number of rows that resolve an end face as ``n_z`` resolve the barrel.
 
     The shaft tilts no further than the barrel lets it. So the gap changes across a face and along the barrel
     as their widths do, and the numbers of rows that resolve it go with the roots of these, see

@@ -45,7 +45,7 @@ class Mesh:
     slides: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no mesh."""
+        """Refuse invalid meshes."""
         check_positive("mesh", gap=self.clearance, edge=self.edge)
         facets = np.asarray(self.facets)
         if facets.ndim != 3 or facets.shape[1:] != (3, 3) or not len(facets):

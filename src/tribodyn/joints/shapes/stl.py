@@ -20,7 +20,7 @@ from tribodyn.joints.shapes.mesh import MOST_NODES
 _HEADER: Final = 84
 _TRIANGLE: Final = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
 MOST_BYTES: Final = 300 * MOST_NODES
-"""What a triangle takes in text, times the most of them."""
+"""Size of a triangle in text, times the largest number of them."""
 _LOOP: Final = rb"outer\s+loop((?:\s+vertex(?:\s+\S+){3}){3})\s+endloop"
 _FACET: Final = re.compile(rb"facet\s+normal(?:\s+\S+){3}\s+" + _LOOP + rb"\s+endfacet")
 

@@ -34,11 +34,11 @@ GIVEN: Final = {
     "velocity": ("position", 1),
     "force": ("position", 2),
 }
-"""What a drive may give: a coordinate, and 0 for itself, 1 for its rate, 2 for what acts along it."""
+"""Quantities of a drive: a coordinate, and 0 for itself, 1 for its rate, 2 for its acceleration."""
 
 
 def given_of(coordinate: str) -> str:
-    """Return what a drive may give of a coordinate, in words."""
+    """Return the quantities of a drive for a coordinate, in words."""
     *some, last = (given for given, (of, _) in GIVEN.items() if of == coordinate)
     return f"{', '.join(some)} or {last}"
 
@@ -64,7 +64,7 @@ COORDINATE_OF: Final = {
 
 
 class DriveKeys(NamedGroup):
-    """What moves the mechanism, at a joint: one of the tables below it."""
+    """Drive of the mechanism, at a joint: one of the tables below it."""
 
     joint: str = name(None, "which joint it moves", "", example="main", required=True)
     angle: AngleSignal | None = None
@@ -94,12 +94,12 @@ class DriveKeys(NamedGroup):
 
     @property
     def gives(self) -> str:
-        """Which of :data:`GIVEN`."""
+        """Member of :data:`GIVEN`."""
         return next(key for key in GIVEN if getattr(self, key) is not None)
 
     @property
     def signal(self) -> AnySignal:
-        """What it gives."""
+        """Quantity that it prescribes."""
         found: AnySignal = getattr(self, self.gives)
         return found
 
@@ -127,7 +127,7 @@ class LoadKeys(BodyLoad):
     )
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+        """Check keys against each other."""
         self.check_given('force = "100 N"')
         self.check_opposing()
         words = "a load along a joint's coordinate is a table over angles or positions"
@@ -154,7 +154,7 @@ class LoadKeys(BodyLoad):
         return self.along is None and bool(self.joint_axes)
 
     def acts_at(self, centre: Vector) -> Vector:
-        """Return where the force acts, as drawn [m], on a body with a mass centre there."""
+        """Return the point of the force, as in the model [m], on a body with a mass centre there."""
         x, y, z = self.point or centre
         if self.span_axis is None:
             return x, y, z
@@ -163,7 +163,7 @@ class LoadKeys(BodyLoad):
 
 
 def doors_of(drives: Mapping[str, DriveKeys], loads: Mapping[str, LoadKeys], duration: float) -> Doors:
-    """Return where functions for the drive and for loads go: ``gas``, or ``gas.force`` of several."""
+    """Return the keys for functions of the drive and of loads: ``gas``, or ``gas.force`` of several."""
     paths = {
         f"{name}.{key}": (f"loads.{name}.{key}", "N m" if key.startswith("moment") else "N")
         for name, load in loads.items()

@@ -27,7 +27,7 @@ NOTES: Final[dict[str, tuple[str, ...]]] = {
         "against the motion and damping of impacts are left out",
     ),
 }
-"""What each analysis leaves out, in words."""
+"""Effects that each analysis leaves out, in words."""
 
 
 def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -> Problem:

@@ -87,7 +87,7 @@ class Assembly:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What a run must repeat: clearances that are needed to move, reactions not unique, or not exact."""
+        """Notes for a run: clearances that are needed to move, reactions not unique, or not exact."""
         strained = (self.strain,) if self.strain else ()
         if self.redundancy is None:
             return (*strained, *self.inexact)
@@ -101,7 +101,7 @@ class Assembly:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What is worth knowing of it, in words."""
+        """Remarks on it, in words."""
         n = self.freedoms
         free = "no degree of freedom is left" if n == 0 else f"{n} degree{'s' * (n > 1)} of freedom"
         return free, *self.warnings, *self.notes
@@ -251,7 +251,7 @@ def _locking(system: System, dependent: FloatArray, drives: Mapping[tuple[int, i
 
 
 def _odd_axes(system: System, locking: list[str]) -> str:
-    """Return which axes of the joints among what holds a drive are out of plane, in words."""
+    """Return the axes out of plane among the joints on the path of a drive, in words."""
     joints = system.model.case.joints
     return odd_axes({name: keys for name, keys in joints.items() if f"joint {name}" in locking})
 

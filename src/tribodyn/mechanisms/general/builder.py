@@ -30,7 +30,7 @@ else:
         """Stands for the methods that are added below, whose types are in ``signatures.pyi``."""
 
         def __getattr__(self, name: str) -> Any:
-            """Say which method was probably meant by a name that none has."""
+            """Suggest the method that was probably meant by an unknown name."""
             hint = meant(name, [method.name for method in METHODS])
             raise AttributeError(f"a Mechanism has no method {name!r}{hint}", name=name, obj=self)
 

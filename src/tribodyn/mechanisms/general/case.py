@@ -148,7 +148,7 @@ class MechanismCase(_WithElements):
         return self if clearance.pair is None else self.pairs[clearance.pair]
 
     def remarks(self) -> Remarks:
-        """Return what is to be said of the surfaces of all joints and of tables."""
+        """Return remarks on the surfaces of all joints and on tables."""
         of_pairs = (of_surfaces(self, f"{_PAIRS}.{name}.", self._beside(name)) for name in self.pairs)
         own = of_surfaces(self, "", self._beside(None)) + of_tables(self.followed())
         return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self))
@@ -215,7 +215,7 @@ class MechanismCase(_WithElements):
         }
 
     def doors(self) -> Doors:
-        """Return where functions for the drive and for loads go."""
+        """Return the keys for functions of the drive and of loads."""
         return doors_of(self.drives, self.loads, self.span)
 
     @property
@@ -303,7 +303,7 @@ class MechanismCase(_WithElements):
         return int(self.run.cycles or 1.0) - 1
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several tables."""
+        """Check tables against each other."""
         super().model_post_init(context)
         demand(bool(self.bodies), "bodies", "a mechanism needs a body: write a table [bodies.NAME]")
         demand(

@@ -23,7 +23,7 @@ _TIGHTEN: Final = "Tighten solver.rtol tenfold."
 
 
 def of_balance(energy: float, gaps: FloatArray) -> list[str]:
-    """Return what is to be said of energy and constraints; empty texts where nothing is.
+    """Return remarks on energy and constraints; empty texts without any.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def of_balance(energy: float, gaps: FloatArray) -> list[str]:
 
 
 def of_start(asked: str, began: Mapping[str, str]) -> list[str]:
-    """Return what is to be said of a start in equilibrium that was asked for and not found."""
+    """Return a remark on a start in equilibrium that was requested and not found."""
     if began.get("start") != "centred" or asked == "centred":
         return []
     return [
@@ -63,7 +63,7 @@ def said(*parts: Sequence[str], cost: Mapping[str, float]) -> list[str]:
 
 
 def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: float) -> str:
-    """Return what became of which joint, in words; empty where all are intact.
+    """Return the failures of joints in words; empty where all are intact.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: floa
 
 
 def _of_films(statuses: FloatArray, model: Model, t_end: float) -> str:
-    """Return which film had no answer at some trial state, and why."""
+    """Return the film without a solution at some trial state, and the reason."""
     for number, status in zip(model.oiled, statuses, strict=True):
         if status != CONVERGED:
             words = f"the oil film of joint {model.joints[number]} had no answer: {explain(int(status))}"

@@ -115,7 +115,7 @@ class System:
         mark_angles(self.now.couplings)
 
     def position(self) -> Position:
-        """Return where the bodies are, with their whole turns, for :meth:`restore`."""
+        """Return the positions of the bodies, with their whole turns, for :meth:`restore`."""
         return self.now.bodies.copy(), self.now.couplings.angle_mark.copy()
 
     def restore(self, position: Position) -> None:
@@ -193,7 +193,7 @@ class System:
         return with_unit_rows(rows * np.tile(np.repeat([self.size, 1.0], 3), self.n))
 
     def rank(self, rows: FloatArray | None = None) -> int:
-        """Return how many of these rows, or of the constraints, are independent."""
+        """Return the number of independent rows among these, or among the constraints."""
         if rows is None and self.known_rank is not None:
             return self.known_rank
         given = self.over_sizes(self.matrix() if rows is None else rows)
@@ -325,11 +325,11 @@ class System:
         return [self.open_joint() if np.max(drawn) < CLOSED * self.size else self._drawn_open(drawn)]
 
     def _drawn_gaps(self) -> FloatArray:
-        """Return how far apart the two points of each joint are in the drawing [m], shape (n_joints,)."""
+        """Return the distances of the two points of each joint in the model [m], shape (n_joints,)."""
         return np.array([math.dist(*joint.points) for joint in self.model.case.joints.values()])
 
     def _drawn_open(self, gaps: FloatArray) -> ModelError:
-        """Return which joint is open in the drawing; closing spreads its gap over others."""
+        """Return the joint that is open in the model; closing spreads its gap over others."""
         name = self.model.joints[int(np.argmax(gaps))]
         first, second = self.model.case.joints[name].between
         text = (
@@ -346,7 +346,7 @@ class System:
         return 0.0
 
     def open_joint(self) -> ModelError:
-        """Return which joint closes least, with its gap and its bodies."""
+        """Return the joint with the largest gap, with its gap and its bodies."""
         worst, size = 0, -1.0
         for k in range(len(self.model.joints)):
             n_rows = self.parts.couplings[k].n_rows
@@ -372,7 +372,7 @@ class System:
         return ModelError(f"joints.{name}", text)
 
     def _open_element(self, least: float) -> ModelError | None:
-        """Return which element misses its equation most, if any does by more than that [m]."""
+        """Return the element with the largest error of its equation, if one exceeds that [m]."""
         first = self.model.first_leg
         gaps = np.where(
             self.parts.couplings.n_rows[first:] > 0, abs(self.now.couplings.residual[first:, 0]), 0.0
@@ -387,7 +387,7 @@ class System:
         return ModelError(f"{element.keys.TABLE}.{element.name}", text)
 
     def independence(self) -> tuple[int, FloatArray]:
-        """Return how many rows are independent, and the combinations that vanish, shape (m, n_rows).
+        """Return the number of independent rows, and the combinations that vanish, shape (m, n_rows).
 
         They combine rows of length one.
 
@@ -471,7 +471,7 @@ def _is_exact(share: float, of_places: float) -> bool:
 
 
 def rank_of(values: FloatArray) -> int:
-    """Return how many of these singular values, falling, are those of independent rows."""
+    """Return the number of these singular values, falling, that belong to independent rows."""
     return int(np.sum(values > DEPENDENT * np.max(values, initial=0.0)))
 
 

@@ -1,4 +1,4 @@
-"""What a run has made of the contacts of its joints, and what the same attitudes give on a finer grid."""
+"""Measures of the contacts of a run's joints, and of the same attitudes on a finer grid."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _FINER: Final = 4
 _FORCE: Final = ("F_cx", "F_cy", "F_cz")
 _ALL: Final = slice(None)
 _DECIDING: Final = (*(field.name for field in fields(SurfaceLaw)), "shape", "grid")
-"""What decides about the grid of a joint and the forces on it at rest, beside its wear."""
+"""Values that decide about the grid of a joint and the forces on it at rest, beside its wear."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Contacts:
         peaks: Mapping[str, FloatArray],
         openings: FloatArray,
     ) -> dict[str, FloatArray]:
-        """Return how the surfaces were loaded and what the grid makes of it, shape (n_surfaces,) each.
+        """Return the load measures of the surfaces and their grid errors, shape (n_surfaces,) each.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class Contacts:
     def warnings(
         self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray], t_end: float
     ) -> list[str]:
-        """Return what is to be said of each surface; ``found`` is from :meth:`numbers_of`."""
+        """Return remarks on each surface; ``found`` is from :meth:`numbers_of`."""
         said = []
         for s, (name, touch) in enumerate(zip(self.names, self.touches, strict=True)):
             load = {key: float(found[key][s]) for key in ("hardness_share", "real_area_share")}
@@ -116,7 +116,7 @@ class Contacts:
         return said
 
     def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:
-        """Return what to read the pressures with, of many surfaces those in which damping carries most."""
+        """Return a remark on pressures with damping, of many surfaces that with the largest share."""
         pressure, at_rest = peaks["pressure_peak"], found["pressure_at_rest"]
         said = {
             s: text
@@ -181,7 +181,7 @@ class _Finer:
         self._last: tuple[bytes, tuple[SurfaceData, SurfaceMemory]] | None = None
 
     def key(self, j: int, clearance: Clearance) -> bytes:
-        """Return what the grid of a joint follows from."""
+        """Return the values from which the grid of a joint follows."""
         facts = tuple(getattr(clearance, name) for name in _DECIDING)
         return _content((facts, tuple(self._depths(j))))
 

@@ -33,7 +33,7 @@ _PARTS: Final = 8
 _CORRECTIONS: Final = 20
 """Steps of Newton's method in which bodies that are near must close."""
 _WAYS: Final = 4
-"""How many ways are tried where freedoms are left."""
+"""Largest number of branches that are tried where freedoms are left."""
 
 _passed: Final[Remembered[None]] = Remembered(32)
 """Digests of the last mechanisms that could follow their drives, with their start and duration."""
@@ -113,7 +113,7 @@ def _stuck_anew(system: System, rank: int, duration: float) -> tuple[float, Mode
 
 
 def _stuck(system: System, rank: int, duration: float) -> tuple[float, ModelError] | None:
-    """Return when joints no longer close on any way that is tried, with the finding, or None."""
+    """Return the time at which joints no longer close on any branch, with the finding, or None."""
     if not system.drive_rows():
         return None
     system.set_rank(rank)
@@ -189,19 +189,19 @@ def _reached(system: System, begin: float, end: float, close: Close) -> bool:
 
 
 def _finding(system: System, time: float) -> ModelError:
-    """Return which joint does not close at a time, and where the drives are then."""
+    """Return the joint that does not close at a time, and the positions of the drives then."""
     system.close()
     finding = system.open_joint()
     return ModelError(finding.key, f"at t = {time:.4g} s, with {where_drives_are(system)}, {finding.text}")
 
 
 def where_drives_are(system: System) -> str:
-    """Return where the drives are at the time of a system, in words."""
+    """Return the positions of the drives at the time of a system, in words."""
     return " and ".join(_where(system, *row) for row in system.drive_rows())
 
 
 def _where(system: System, coupling: int, row: int, name: str) -> str:
-    """Return where a drive is, in words."""
+    """Return the position of a drive in words."""
     value = float(system.now.couplings[coupling].prescribed[row, 0])
     value *= system.model.joint(coupling).sign
     if system.parts.couplings[coupling].row_kind[row] == ANGLE:

@@ -22,7 +22,7 @@ _KEPT: Final = 4
 
 
 def svd(matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return what :func:`tribodyn.kernels.dense.svd` does, as arrays that cannot be written to."""
+    """Return the result of :func:`tribodyn.kernels.dense.svd`, as arrays that cannot be written to."""
     return _svd(np.ascontiguousarray(matrix).tobytes(), matrix.shape)
 
 
@@ -88,7 +88,7 @@ def with_unit_rows(matrix: FloatArray) -> FloatArray:
 
 
 def row_space(matrix: FloatArray, rank: int) -> RowSpace | SparseRowSpace:
-    """Return what rows of length one (m, n), of known rank, hold and leave free."""
+    """Return the spaces that rows of length one (m, n), of known rank, hold and leave free."""
     found = factors(matrix)
     return RowSpace(matrix, rank) if found is None or found.rank != rank else SparseRowSpace(found)
 

@@ -1,4 +1,4 @@
-"""What elements transmit, from what is observed of their legs."""
+"""Forces and moments of elements, from the observed quantities of their legs."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ _COORDINATES: Final = ("angle", "position")
 
 
 def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bool = True) -> MechanismData:
-    """Return what the kernels read of a mechanism.
+    """Return the data of a mechanism for the kernels.
 
     Parameters
     ----------

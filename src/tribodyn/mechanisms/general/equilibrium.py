@@ -1,4 +1,4 @@
-"""Where the loads on the shafts of a mechanism balance, its bodies displaced within the clearances.
+"""Equilibrium of the loads on the shafts of a mechanism, its bodies displaced within the clearances.
 
 With the mass matrix M, the forces Q of contact and all else, the accelerations a that ideal joints ask for,
 and the motions B that clearances alone allow,
@@ -55,7 +55,7 @@ _SETTLED: Final = 1.0e-3
 _BALANCED: Final = 1.0e-6
 """Load over the largest one met on the way that counts as zero."""
 _LOST: Final = 3.0
-"""How many times the largest gap of its joint a shaft may move without finding what holds it."""
+"""Ratio of a shaft's largest motion to the gap of its joint in a search for a support."""
 _TILTED: Final = 30.0
 """The same of a shaft that touches: tilted within a short bore, its end faces are further away."""
 _TOUCHING: Final = 5.0
@@ -215,7 +215,7 @@ class JointLoads:
         return self._pushes("wrench", self.by_slip)
 
     def _pushes(self, wrench: str, couplings: IntArray) -> FloatArray:
-        """Return what a wrench of some couplings does to the bodies, shape (6 n,)."""
+        """Return the wrench on the bodies from a wrench of some couplings, shape (6 n,)."""
         pushes = products(self.couplings[wrench][couplings, None], self.couplings["H"][couplings])
         return forces(pushes, self.ends[:, couplings], self.n)
 

@@ -1,4 +1,4 @@
-"""What a joint with an oil film must be."""
+"""Requirements on a joint with an oil film."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What results hold of oil films: nothing without any, and nothing of joints without one."""
+"""Variables of oil films in results: none without any, and none of joints without one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tribodyn.mechanisms.general.variables import OIL
 
 
 def film_columns(couplings: Mapping[str, FloatArray], model: Model) -> dict[str, FloatArray]:
-    """Return what is observed of films, each of shape (n_t, n_joints) or (n_t, n_joints, 3)."""
+    """Return the observed quantities of films, each of shape (n_t, n_joints) or (n_t, n_joints, 3)."""
     found = {}
     for name in OIL if model.oiled else ():
         if name not in couplings:
@@ -27,7 +27,7 @@ def film_columns(couplings: Mapping[str, FloatArray], model: Model) -> dict[str,
 
 
 def film_peaks(oil: Any, model: Model) -> dict[str, FloatArray]:
-    """Return what was largest or least of each film at any step, each of shape (n_joints,).
+    """Return the largest or least values of each film at any step, each of shape (n_joints,).
 
     ``oil`` are the records of ``kernels/joints/film.py``.
     """
@@ -72,5 +72,5 @@ def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
 
 
 def _angles(n_theta: int) -> FloatArray:
-    """Return where the nodes of a film are [rad]: opposite to where their pressure pushes the shaft."""
+    """Return the angles of a film's nodes [rad]: opposite to the push of their pressure on the shaft."""
     return np.asarray(np.mod(2.0 * np.pi * np.arange(n_theta) / n_theta + np.pi, 2.0 * np.pi))

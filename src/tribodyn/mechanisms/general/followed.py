@@ -1,4 +1,4 @@
-"""What tables of loads follow in a run, as results hold it."""
+"""Coordinates that tables of loads follow in a run, as results hold them."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ OBSERVED: Final = {
     "speeds": "relative_rate",
     "velocities": "relative_velocity",
 }
-"""What a table follows of a joint, or of its own load, by what it runs over."""
+"""Coordinate of a joint, or of the load itself, that a table follows, by its knots."""
 
 
 def followed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
-    """Return what a table of a load follows, shape (n_t,): coordinate or speed of a joint, or its own.
+    """Return the coordinate of a load's table, shape (n_t,): that of a joint with its speed, or its own.
 
     ``couplings`` are observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
     """

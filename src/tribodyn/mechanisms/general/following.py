@@ -11,7 +11,7 @@ from tribodyn.mechanisms.general.variables import columns_of
 
 
 def following(model: Model, period: float, times: FloatArray) -> Following | None:
-    """Return where rows follow the steps: where shafts may strike, faster than output times see.
+    """Return the intervals in which rows follow the steps: shafts may strike faster than output times see.
 
     Parameters
     ----------

@@ -141,7 +141,7 @@ class IdealMechanism:
         return states[:k]
 
     def leaves_free(self, outputs: Sequence[Output], times: FloatArray, states: FloatArray) -> list[bool]:
-        """Return which outputs drives leave free, tried at some of the positions that were reached."""
+        """Return the outputs that drives leave free, tried at some of the positions that were reached."""
         tried = np.unique(np.linspace(0, max(len(states) - 1, 0), _PLACES).astype(int))
         free = np.any([self._free(outputs, times[i], states[i]) for i in tried if i < len(states)], axis=0)
         return [bool(one) for one in np.broadcast_to(free, len(outputs))]
@@ -158,7 +158,7 @@ class IdealMechanism:
         return lead(self.system, float(times[k]), lambda: closes(self.system)) and closes(self.system)
 
     def _free(self, outputs: Sequence[Output], t: float, state: FloatArray) -> NDArray[np.bool_]:
-        """Return which outputs change along a freedom that is left, each tried both ways."""
+        """Return the outputs that change along a freedom, each tried in both directions."""
         self.put(t, state)
         system, found = self.system, np.zeros(len(outputs), dtype=bool)
         units = np.tile(np.repeat([system.size, 1.0], 3), system.n)

@@ -1,4 +1,4 @@
-"""What results of a mechanism hold of its bodies and joints over time, and what else a run reads of it."""
+"""Variables of bodies and joints over time in a mechanism's results, and further inputs of a run."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ OF_LARGE: Final = (
     *("reaction_force", "reaction_moment", "drive_moment", "drive_force"),
     *("joint_friction", "pressure_max", "gap_min", *OIL),
 )
-"""What results of large models hold, with what loads follow, unless the case says: what a report reads."""
+"""Quantities in results of large models, beside the coordinates of loads, by default: those of a report."""
 _OF_LEGS: Final = ("reaction_force", "reaction_moment", "displacement", "relative_velocity")
-"""What forces and moments of elements are computed from."""
+"""Inputs of the forces and moments of elements."""
 _ALWAYS: Final = ("reaction_force", "drive_moment", "drive_force")
 _OF_CLEARANCES: Final = ("tilt_x", "tilt_y", "displacement", "pressure_max")
 _OF_FLASH: Final = ("relative_velocity", "relative_rate", "gap_min")
@@ -79,7 +79,7 @@ def _has_films(case: MechanismCase) -> bool:
 
 
 def note(case: MechanismCase) -> list[str]:
-    """Return what a user should know of what a result of a large model does not hold, in words."""
+    """Return a note on the quantities that a result of a large model lacks, in words."""
     left_out = not_kept(case)
     if not left_out or case.results.quantities is not None:
         return []
@@ -90,7 +90,7 @@ def note(case: MechanismCase) -> list[str]:
 
 
 def columns(model: Model, found: Observed) -> dict[str, FloatArray]:
-    """Return what a result holds of bodies and joints, which come before springs and loads, over time.
+    """Return the quantities of bodies and joints over time, which come before springs and loads.
 
     Kernels observe all of the shaft.
     """
@@ -106,7 +106,7 @@ def columns(model: Model, found: Observed) -> dict[str, FloatArray]:
 
 @dataclass(frozen=True)
 class Layout:
-    """Which numbers of a row a run keeps.
+    """Columns of a row that a run keeps.
 
     Attributes
     ----------
@@ -146,7 +146,7 @@ class Layout:
                 yield from columns_of(quantity.name, coupling, self.n_bodies)
 
     def observed(self, rows: FloatArray) -> Observed:
-        """Return what rows of shape (n_t, size) hold; joints alone where others do not keep a quantity."""
+        """Return the quantities in rows (n_t, size); joints alone where others do not keep a quantity."""
         sizes = [n * sum(q.size for q in table) for n, table in self._parts]
         ends = np.cumsum([N_WHOLE, *sizes])
         whole, *parts = (rows[:, a:b] for a, b in zip([0, *ends[:-1]], ends, strict=True))
@@ -165,7 +165,7 @@ class Layout:
 
 
 def layout_of(case: MechanismCase) -> Layout:
-    """Return what a run of a case keeps of its rows: all where its result holds all."""
+    """Return the columns that a run of a case keeps: all where its result holds all."""
     n_legs = sum(len(one.legs) for _, _, keys in case.elements() for one in keys.equations(case.joints))
     counts = len(case.bodies), len(case.joints), len(case.springs) + len(case.loads) + n_legs
     if not not_kept(case):
@@ -186,7 +186,7 @@ def _of(table: Table, chosen: set[str]) -> Table:
 
 
 def _read_of_joints(case: MechanismCase) -> Iterator[str]:
-    """Yield what is computed from joints after a run, whatever its result holds."""
+    """Yield quantities that are computed from joints after a run, whatever its result holds."""
     yield from _ALWAYS
     real = [joint.real for joint in case.joints.values() if joint.real is not None]
     yield from _OF_CLEARANCES if real else ()

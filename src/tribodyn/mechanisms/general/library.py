@@ -34,12 +34,12 @@ class Template:
 
     @property
     def description(self) -> str:
-        """What the mechanism is, from its comments."""
+        """Description of the mechanism, from its comments."""
         return " ".join(line for line in self._comments() if not re.match(r"(Question|Results): ", line))
 
     @property
     def question(self) -> str:
-        """What the gallery asks of the mechanism; empty where it does not show it."""
+        """Question that the gallery answers with it; empty where the gallery does not show it."""
         return self._entry("Question")
 
     @property

@@ -155,12 +155,12 @@ class Linearised:
 
 
 def _rows_of_velocity(n: int) -> list[int]:
-    """Return which states of n bodies are velocities, those of each body one after the other."""
+    """Return the states of n bodies that are velocities, those of each body one after the other."""
     return [N_STATES * body + entry for body in range(n) for entry in range(VELOCITY, N_STATES)]
 
 
 def _in_states(state: FloatArray, motions: FloatArray) -> FloatArray:
-    """Return what displacements (6 n, f) do to positions and quaternions of a state, shape (13 n, f).
+    """Return the effect of displacements (6 n, f) on positions and quaternions of a state, shape (13 n, f).
 
     Quaternions change by ½ p ∘ (0, δθ).
     """

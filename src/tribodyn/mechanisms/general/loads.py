@@ -42,7 +42,7 @@ def terms_of(case: MechanismCase, load: LoadKeys) -> Iterator[Term]:
 
 
 def fill_load(record: Any, model: Model, load: LoadKeys, terms: list[Term]) -> None:
-    """Fill what a load does, and add its terms to those of the loads before it."""
+    """Fill the record of a load, and add its terms to those of the loads before it."""
     record.force, record.slip_velocity = _KINDS[load.frame], load.slip
     if load.frame == "motion":
         record.opposes, record.own_speed = _size_at(load), int(load.follows_own_speed)

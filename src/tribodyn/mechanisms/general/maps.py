@@ -17,7 +17,7 @@ LATITUDE: Final = "latitude"
 
 @dataclass(frozen=True)
 class Maps:
-    """How nodes, which kernels count through all surfaces, become maps.
+    """Maps of nodes, which kernels count through all surfaces.
 
     Surfaces with fewer rows or columns than the largest are filled up: their last row and column stand there
     again, and fields are zero there.

@@ -89,7 +89,7 @@ class Misfit:
         return np.array(np.tile(np.repeat([self.system.size, 1.0], 3), self.system.n), np.float64)
 
     def _residuals(self) -> FloatArray:
-        """Return what each row misses, ways in units of the size, shape (n_rows,)."""
+        """Return the misfit of each row, translations in units of the size, shape (n_rows,)."""
         return np.asarray(self.system.entries("residual") / self.system.row_units, np.float64)
 
     def _change(self, weight: FloatArray) -> FloatArray:
@@ -119,7 +119,7 @@ class Misfit:
 
 
 def _allowed(shape: str, clearance: Clearance) -> tuple[float, float, float]:
-    """Return how far a shaft may be displaced across and along its axis [m], and tilted [rad].
+    """Return the play of a shaft across and along its axis [m], and its tilt [rad].
 
     What surfaces give way until their contact law ends is part of it.
     """

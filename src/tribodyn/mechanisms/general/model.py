@@ -125,7 +125,7 @@ class Model:
         return [element for element in self.elements for _ in element.legs][coupling - self.first_leg]
 
     def constraint(self, coupling: int) -> tuple[str, tuple[str, ...]]:
-        """Return what a constraint equation of a coupling belongs to, ``joint NAME``, and its bodies."""
+        """Return the owner of a coupling's constraint equation, ``joint NAME``, and its bodies."""
         if coupling < len(self.joints):
             return f"joint {self.joints[coupling]}", self.joint(coupling).between
         element = self.element_of(coupling)

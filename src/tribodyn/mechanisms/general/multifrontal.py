@@ -29,7 +29,7 @@ _EXACT: Final = 1.0e-9
 
 @dataclass(frozen=True)
 class _Front:
-    """What the rows that act on one body were turned into.
+    """Factored rows that act on one body.
 
     Attributes
     ----------

@@ -17,7 +17,7 @@ _ACROSS: Final = "prismatic"
 
 
 def odd_axes(joints: Mapping[str, JointKeys]) -> str:
-    """Return which axes prevent a planar motion, as words that follow a message; empty where that is not so.
+    """Return the axes that prevent a planar motion, as words that follow a message; empty otherwise.
 
     Most revolute joints of a planar mechanism have parallel axes. The other axes of revolute joints, and
     those of prismatic joints that are not perpendicular to them, are named with their angle.

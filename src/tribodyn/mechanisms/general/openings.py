@@ -1,4 +1,4 @@
-"""What temperatures do to the clearances of joints, as results hold it."""
+"""Effect of temperatures on the clearances of joints, as results hold it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.run_keys import ROWS
 
 _FRICTION: Final = "joint.friction_coefficient"
-"""How tables of properties call the friction of their joint."""
+"""Name of the friction of a joint in tables of properties."""
 
 
 def opens(model: Model) -> list[bool]:
@@ -35,7 +35,7 @@ def from_time(model: Model, time: float) -> Model:
 
 
 def openings(model: Model, t: FloatArray) -> FloatArray:
-    """Return what temperatures have added to radial clearances and plays at times [m], shape (n_t, n, 2).
+    """Return the growth of radial clearances and plays by temperature at times [m], shape (n_t, n, 2).
 
     The joints are those with clearance.
     """
@@ -58,7 +58,7 @@ def radial_clearances(model: Model, t: FloatArray) -> dict[str, FloatArray]:
 
 
 def of_temperatures(model: Model) -> list[str]:
-    """Return which clearances and materials are other ones at the temperatures of the run, in words."""
+    """Return the clearances and materials that differ at the temperatures of the run, in words."""
     over_time = radial_clearances(model, np.linspace(0.0, model.case.duration, ROWS))
     said = []
     for number, (name, hot) in zip(model.real, model.clearances.items(), strict=True):

@@ -1,4 +1,4 @@
-"""In which order the blocks of a mechanism's matrices are eliminated.
+"""Order in which the blocks of a mechanism's matrices are eliminated.
 
 Minimum degree, with one condition that makes pivoting between blocks needless. The rows of a joint, or the
 equation of an element over up to four bodies, are eliminated only after one of its bodies, and only while

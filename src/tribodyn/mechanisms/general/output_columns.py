@@ -1,4 +1,4 @@
-"""What results hold of the outputs of a mechanism."""
+"""Variables of the outputs of a mechanism in results."""
 
 from __future__ import annotations
 

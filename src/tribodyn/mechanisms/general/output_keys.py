@@ -17,7 +17,7 @@ _AXIS: Final = "[1, 0, 0]"
 
 
 class JointInstants(InstantKeys):
-    """Where the error of an output is read, by the coordinate of a joint."""
+    """Places at which the error of an output is read, by the coordinate of a joint."""
 
     positions: Numbers | None = series(
         "positions of the drive at which the error is read", "", unit="mm", example='["5 mm", "20 mm"]'

@@ -1,4 +1,4 @@
-"""When wear makes the errors of the outputs of a mechanism too large, from the wear of one cycle."""
+"""Life until wear makes the errors of the outputs of a mechanism too large, from the wear of one cycle."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class Motion:
 _RATE_OF: Final = {"velocity": "position", "angular_velocity": "angle"}
 """Quantities that are rates, with what they are rates of."""
 MOTION: Final = tuple(field.name for field in fields(Motion))
-"""What outputs are computed from."""
+"""Motion from which outputs are computed."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Output:
         return self.keys.unit
 
     def components(self, motion: Motion) -> FloatArray:
-        """Return what a motion makes of it, shape (n_t, 1), or (n_t, 3) where it has no direction."""
+        """Return the value of an output for a motion, shape (n_t, 1), or (n_t, 3) without a direction."""
         if self.keys.quantity == "angle":
             return self._angle(motion)[:, None]
         if self.keys.quantity == "angular_velocity":
@@ -207,7 +207,7 @@ def motion_of(state: FloatArray) -> Motion:
 
 
 def _rotation(motion: Motion, body: int) -> Rotation:
-    """Return how a body is turned from the drawing; the ground is not."""
+    """Return the rotation of a body from its position in the model; none for the ground."""
     from scipy.spatial.transform import Rotation
 
     if body < 0:

@@ -53,5 +53,5 @@ class PairKeys(NamedGroup):
         return self.surfaces.pair(self.asperities)
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+        """Check keys against each other."""
         self.contact.check(self.surface_pair)

@@ -50,7 +50,7 @@ else:
 
 
 class ClearanceKeys(_OfAllShapes):
-    """What makes an ideal joint a real one; without this table it is ideal."""
+    """Clearance of a joint; without this table it is ideal."""
 
     shape: str | None = choice(
         None,
@@ -91,7 +91,7 @@ class ClearanceKeys(_OfAllShapes):
     )
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several sizes."""
+        """Check sizes against each other."""
         super().model_post_init(context)
         self.liner.check_contact(self.contact, "")
         if self.radius is not None and self.radial is not None:
@@ -169,7 +169,7 @@ class JointKeys(_OfAllTypes):
     film: FilmKeys | None = None
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+        """Check keys against each other."""
         # A type that counts as zero is refused as such, by the check of its family.
         if self.type not in JOINTS:
             return
@@ -246,7 +246,7 @@ class JointKeys(_OfAllTypes):
 
     @property
     def points(self) -> tuple[Vector, Vector]:
-        """Where it is on the first and on the second body, as drawn [m]."""
+        """Places on the first and on the second body, as in the model [m]."""
         return self.point, self.other_point or self.point
 
     @property
@@ -273,7 +273,7 @@ class SpringKeys(NamedGroup):
     )
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves two keys."""
+        """Check two keys against each other."""
         demand(self.between[0] != self.between[1], "between", "a spring connects two different bodies")
         demand(self.drawn_length > 0.0, "second_point", "the two ends of a spring must stand apart")
 

@@ -1,4 +1,4 @@
-"""Which blocks the linear systems of a mechanism have, and where entries of the iteration matrix stand."""
+"""Blocks of the linear systems of a mechanism, and places of the entries of the iteration matrix."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def patterns(n_bodies: int, couplings: Any) -> tuple[Pattern, Pattern]:
 
 
 def number_entries(n_bodies: int, couplings: Any) -> int:
-    """Fill where the entries of couplings in the iteration matrix begin; return how many there are."""
+    """Fill the beginnings of the couplings' entries in the iteration matrix; return their number."""
     sides = (couplings.socket < n_bodies).astype(int) + (couplings.shaft < n_bodies)
     of_rows = N_ROW * sides * couplings.n_terms + N_COMPLIANCE
     numbers = N_PAIR * sides**2 + np.where(couplings.node != NONE, of_rows, 0)

@@ -27,7 +27,7 @@ _DEEP: Final = 1.0e-9
 
 
 class MechanismTables(Protocol):
-    """What is looked at of a case."""
+    """Parts of a case that are checked."""
 
     @property
     def bodies(self) -> Mapping[str, BodyKeys]:
@@ -66,7 +66,7 @@ class MechanismTables(Protocol):
 
 
 def of_mechanism(case: MechanismTables) -> Remarks:
-    """Return what is to be said of period, loads, stops, masses, springs and wear of a case."""
+    """Return remarks on period, loads, stops, masses, springs and wear of a case."""
     warnings, notes = _of_period(case)
     notes += _of_loads(case)
     warnings += [*_of_stops(case), *_of_masses(case), *_of_springs(case), *_of_wear(case)]

@@ -129,7 +129,7 @@ def _shortest_wave(case: MechanismCase) -> float:
 
 
 def _algebra(data: MechanismData) -> LinearSolver:
-    """Return how the problem solves with its iteration matrix."""
+    """Return the linear algebra of the problem's iteration matrix."""
     n, private = data.parts.bodies.size, int(data.parts.constants.n_entries)
     state = N_STATES * np.arange(n)[:, None]
     rows = np.array([VELOCITY, VELOCITY + 1, VELOCITY + 2, TURNING, TURNING + 1, TURNING + 2])
@@ -163,7 +163,7 @@ def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
 
 
 def _scales(assembly: Assembly, duration: float) -> FloatArray:
-    """Return what positions, orientations, velocities and angular velocities are small beside, shape (4,)."""
+    """Return the scales of positions, orientations, velocities and angular velocities, shape (4,)."""
     size, length = float(assembly.data.parts.constants.size), length_scale(assembly)
     state = assembly.state.reshape(-1, N_STATES)
     speed = max(

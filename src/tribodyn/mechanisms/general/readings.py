@@ -40,7 +40,7 @@ def _numbers(joints: tuple[str, ...]) -> dict[str, int]:
 
 
 def offset(dataset: xr.Dataset, joint: int | slice = slice(None)) -> FloatArray:
-    """Return how far shafts are from the middle of their bores [m], shape (n_t, n_joints); (n_t,) of one."""
+    """Return the offsets of shafts in their bores [m], shape (n_t, n_joints); (n_t,) of a single joint."""
     if isinstance(joint, int):
         across = of_part(dataset, "displacement", joint, _across)
     else:

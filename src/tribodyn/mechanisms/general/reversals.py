@@ -1,4 +1,4 @@
-"""When the drives of a mechanism reverse, and what is largest in the impacts that follow."""
+"""Reversals of the drives of a mechanism, and largest values in the impacts that follow."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Reversals:
 
     @cached_property
     def times(self) -> FloatArray:
-        """When a drive reverses, stops or starts, strictly inside the run [s], shape (n,)."""
+        """Times at which a drive reverses, stops or starts, strictly inside the run [s], shape (n,)."""
         return self._within(self.duration)
 
     def _within(self, duration: float) -> FloatArray:
@@ -65,7 +65,7 @@ class Reversals:
 
     @property
     def attributes(self) -> dict[str, float]:
-        """How long impacts last after each reversal [s], by name; nothing where no drive reverses."""
+        """Length of the impacts after each reversal [s], by name; none where no drive reverses."""
         return {"impact_time": impact_time(self.period)} if self.times.size else {}
 
     def coordinates(self, t_end: float) -> dict[str, FloatArray]:
@@ -101,7 +101,7 @@ class Reversals:
         return of_rows(t, values, self._begins(float(t[-1])), impact_time(self.period))
 
     def notes(self, t_end: float, *, carried: bool) -> list[str]:
-        """Return which reversals of a cycle a run up to ``t_end`` [s] does not hold with their impacts."""
+        """Return the reversals of a cycle that a run up to ``t_end`` [s] does not hold with their impacts."""
         if not self.times.size:
             return []
         begins = self._begins(t_end)
@@ -110,7 +110,7 @@ class Reversals:
 
 
 def _turns(drive: DriveKeys, duration: float) -> tuple[FloatArray, FloatArray]:
-    """Return when the direction of a drive changes [s], and its directions before, between and after."""
+    """Return the times at which the direction of a drive changes [s], and all its directions in turn."""
     level, signal = GIVEN[drive.gives][1], drive.signal.signal()
     if level > 1:
         return np.empty(0), np.empty(0)

@@ -20,7 +20,7 @@ FEW_FRAMES: Final = 30
 
 
 class RunKeys(Group):
-    """What is computed, how long, and what is kept."""
+    """Analysis, duration and outputs."""
 
     analysis: Literal["dynamic", "static", "kinematic", "vibrations"] = choice(
         "dynamic",
@@ -71,7 +71,7 @@ class RunKeys(Group):
 
 
 class ResultKeys(Group):
-    """What the result of a run holds."""
+    """Content of a run's result."""
 
     quantities: tuple[str, ...] | None = names(
         "quantities of bodies and joints that the result holds over time; of up to "

@@ -89,7 +89,7 @@ class Loop:
         return min(max(value, -limit), limit)
 
     def output(self, t: float, y: FloatArray, law: Any) -> float:
-        """Return what is held from now on [N, N m].
+        """Return the values held from now on [N, N m].
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What motions of the bodies do to the shafts of many couplings at once.
+"""Effect of motions of the bodies on the shafts of many couplings at once.
 
 Sums run in the order of :func:`tribodyn.kernels.dense.product`, coupling by coupling: the same bits on every
 processor, whatever is taken together.
@@ -27,7 +27,7 @@ def products(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def ways(arms: FloatArray, bodies: FloatArray) -> FloatArray:
-    """Return what motions of socket and shaft (2, k, 6, m) do to the shafts of k couplings, (k, 6, m).
+    """Return the effect of motions of socket and shaft (2, k, 6, m) on the shafts of k couplings, (k, 6, m).
 
     ``arms`` are those of the couplings, shape (k, 6, 12).
     """

@@ -70,7 +70,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Skeleton:
-    """What is drawn of a mechanism.
+    """Lines and points of a picture of a mechanism.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ class Skeleton:
     def moved(
         self, points: FloatArray, body: int, position: FloatArray, orientation: FloatArray
     ) -> FloatArray:
-        """Return where points of the drawing [m] are when a body carries them [mm], shape (..., n, 3).
+        """Return the places of points of the model [m] that a body carries [mm], shape (..., n, 3).
 
         Parameters
         ----------
@@ -135,7 +135,7 @@ def outline_at(
     position: FloatArray,
     orientation: FloatArray,
 ) -> FloatArray:
-    """Return where a line is [mm], shape (..., n, 3), from what all bodies do, (..., n_bodies, 3 or 4)."""
+    """Return a line [mm], shape (..., n, 3), from the motion of all bodies, (..., n_bodies, 3 or 4)."""
     parts = [
         drawn.moved(points, body, position[..., body, :], orientation[..., body, :])
         for body, points in outline
@@ -144,7 +144,7 @@ def outline_at(
 
 
 def skeleton(case: MechanismCase) -> Skeleton:
-    """Return what is drawn of the mechanism of a case."""
+    """Return the picture's lines for the mechanism of a case."""
     names = tuple(case.bodies)
     centres = np.array([body.centre for body in case.bodies.values()])
     ends: list[list[FloatArray]] = [[] for _ in names]

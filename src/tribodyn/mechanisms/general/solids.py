@@ -67,7 +67,7 @@ def _with_shape(given: Iterable[str]) -> Iterator[str]:
 
 
 def of_body(given: Given) -> dict[str, Any]:
-    """Return what follows from the shape of a body."""
+    """Return the properties that follow from the shape of a body."""
     volume, squares, placed = _SOLIDS[given["shape"]](given)
     mass = given["mass"] if "mass" in given else given["density"] * volume
     return {"mass": mass, "inertia": tuple(mass * square for square in squares), **placed}

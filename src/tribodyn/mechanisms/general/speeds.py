@@ -90,7 +90,7 @@ def start(
 
 
 def _rows(system: System, speeds: Speeds) -> _Rows:
-    """Return what constraints, drives and given speeds demand of the velocities."""
+    """Return the demands of constraints, drives and given speeds on the velocities."""
     matrices, targets = [system.matrix()], [-system.entries("rate")] if system.rows else []
     for k, coordinate, value in speeds:
         coupling, now = system.parts.couplings[k], system.now.couplings[k]

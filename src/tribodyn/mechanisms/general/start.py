@@ -1,4 +1,4 @@
-"""Where a mechanism with clearance begins: its shafts laid against their sockets, where loads balance.
+"""Start of a mechanism with clearance: its shafts laid against their sockets, with balanced loads.
 
 Bodies move as those of the mechanism whose joints are ideal do at that time, and are displaced within the
 clearances until contact gives what that motion asks of the joints, by

@@ -32,14 +32,14 @@ from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_global_a
 from tribodyn.mechanisms.general.outputs import Output
 
 CAUSES: Final = ("clearance", "tilt", "friction")
-"""What an error of a joint is divided into."""
+"""Parts of the error of a joint."""
 _NOTHING: Final = 1.0e-9
 """Force over the largest one that counts as zero."""
 
 
 @dataclass(frozen=True)
 class JointReaction:
-    """What an ideal joint passes on to its shaft over time, in axes of the joint.
+    """Wrench of an ideal joint on its shaft over time, in axes of the joint.
 
     Attributes
     ----------

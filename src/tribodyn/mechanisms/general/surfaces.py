@@ -194,7 +194,7 @@ def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _
 
 
 def _names(name: str, keys: ClearanceKeys) -> Names:
-    """Return what the keys of a joint begin with, for refusals."""
+    """Return the prefix of a joint's keys, for refusals."""
     joint = f"joints.{name}.clearance."
     pair = "" if keys.pair is None else f"pairs.{keys.pair}."
     return Names(f"{joint}radial", joint, f"{joint}temperature.", pair)
@@ -209,7 +209,7 @@ def _geometry(shape: _Round) -> BushingGeometry:
 def _openings(
     case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys
 ) -> tuple[Signal | None, Signal | None]:
-    """Return what temperatures over time add to the radial clearance and to the play along the axis."""
+    """Return the growth of the radial clearance and of the play along the axis by temperatures over time."""
     temperature = keys.temperature
     if not temperature.tables:
         return None, None

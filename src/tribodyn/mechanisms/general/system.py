@@ -68,7 +68,7 @@ from tribodyn.results.attributes import CARRIED, NOT_KEPT
 _STATES: Final = 13
 """Of a body."""
 _AS_DRAWN: Final = ("assembly", "maps", "outputs", "_starts")
-"""What is computed once and does not depend on temperatures over time."""
+"""Data computed once that do not depend on temperatures over time."""
 
 
 @dataclass(frozen=True)
@@ -129,12 +129,12 @@ class MechanismSystem:
 
     @cached_property
     def outputs(self) -> tuple[Output, ...]:
-        """What is compared with the motion of ideal joints."""
+        """Motion of ideal joints for comparison."""
         return outputs_of(self.case)
 
     @cached_property
     def maps(self) -> Maps:
-        """How fields over nodes become maps of surfaces."""
+        """Layout of fields over nodes as maps of surfaces."""
         found = places([clearance for _, clearance in self.real])
         return Maps(tuple(f"{self.real[place.joint][0]}:{place.surface.name}" for place in found), found)
 
@@ -228,7 +228,7 @@ class MechanismSystem:
         return np.asarray(self.maps(depth), dtype=np.float64)
 
     def carried(self, run: FinishedRun) -> Carried:
-        """Return what the next cycle continues from."""
+        """Return the state from which the next cycle continues."""
         return Carried(run.solution.y_end, run.problem.memory.contact.entry_velocity)
 
     def contact_energy(self, worn: Worn) -> float:
@@ -250,7 +250,7 @@ class MechanismSystem:
         return dict(zip(self.case.outputs, lives(error, growth, limits).tolist(), strict=True))
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
-        """Return what a campaign writes down about the motion of one cycle."""
+        """Return the numbers of one cycle that a campaign keeps."""
         force = np.linalg.norm(self._observed(run).couplings["reaction_force"], axis=-1)
         means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self.model.real]]
         return {
@@ -261,7 +261,7 @@ class MechanismSystem:
         }
 
     def gather(self, run: FinishedRun) -> ResultPart:
-        """Return what the mechanism knows about a run."""
+        """Return the mechanism's facts about a run."""
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         vibrations = self._vibrations(found, run)
@@ -353,7 +353,7 @@ class MechanismSystem:
         return checks.failure(run.problem, self.model, self.maps.names, reached) or reason
 
     def _began(self, run: FinishedRun) -> dict[str, str]:
-        """Return how a dynamic run with clearances began."""
+        """Return the start of a dynamic run with clearances."""
         if not self.real or self._analysis != "dynamic":
             return {}
         if run.carried:
@@ -398,7 +398,7 @@ class MechanismSystem:
         return np.array([real[j].shape.clearance if j in real else np.nan for j in self.model.joints])
 
     def _peaks(self, run: FinishedRun) -> dict[str, FloatArray]:
-        """Return what was largest or least of each surface at any step; NaN where it never touched."""
+        """Return the largest or least values of each surface at any step; NaN where it never touched."""
         if not self.real:
             return {}
         peaks: Any = run.problem.memory.contact.peaks
@@ -444,6 +444,6 @@ class MechanismSystem:
 
 
 _IN_BALANCE: Final = frozenset(term.row for term in TERMS.values())
-"""What reaches the user under the names of the balance instead."""
+"""Quantities that reach the user under the names of the balance instead."""
 
 SYSTEM: Final = MechanismSystem

@@ -1,4 +1,4 @@
-"""What results of a mechanism hold beside what every result has: of the whole, each body, each joint."""
+"""Variables of a mechanism's results beside those of every result: of the whole, each body, each joint."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Observed:
 
 
 def observed(rows: FloatArray, n_bodies: int) -> Observed:
-    """Return what rows of shape (n_t, n_observed) hold."""
+    """Return the quantities in rows of shape (n_t, n_observed)."""
     whole, bodies, couplings = np.split(rows, np.cumsum([N_WHOLE, n_bodies * N_BODY]), axis=1)
     of_couplings = of_parts(couplings, COUPLING, couplings.shape[1] // N_COUPLING)
     return Observed(
@@ -69,13 +69,13 @@ def observed(rows: FloatArray, n_bodies: int) -> Observed:
 
 
 def columns_of(name: str, coupling: int, n_bodies: int) -> tuple[int, ...]:
-    """Return which columns of the rows hold an observed quantity of a coupling."""
+    """Return the columns of the rows with an observed quantity of a coupling."""
     first, within = N_WHOLE + n_bodies * N_BODY + coupling * N_COUPLING, slices(COUPLING)[name]
     return tuple(range(first + within.start, first + within.stop))
 
 
 def place_of(name: str, body: int) -> tuple[int, ...]:
-    """Return which columns of the rows hold an observed quantity of a body."""
+    """Return the columns of the rows with an observed quantity of a body."""
     first, within = N_WHOLE + body * N_BODY, slices(BODY)[name]
     return tuple(range(first + within.start, first + within.stop))
 
@@ -90,7 +90,7 @@ def of_parts(rows: FloatArray, table: Table, n: int) -> dict[str, FloatArray]:
 
 
 def _variables(table: Table, part: str) -> dict[str, Variable]:
-    """Return what is known of quantities of bodies or couplings."""
+    """Return the descriptions of quantities of bodies or couplings."""
     return {q.name: Variable(q.unit, q.meaning, (*TIME, part, *_COMPONENTS[q.size])) for q in table}
 
 
@@ -100,7 +100,7 @@ OF_ELEMENTS: Final[dict[str, Variable]] = {
         "N m", "moment of an element: on the second wheel, pinion, nut, or body of the joint", _ELEMENT
     ),
 }
-"""What an element transmits; see its kind for sign and place."""
+"""Force or moment of an element; see its kind for sign and place."""
 
 OF_OUTPUTS: Final[dict[str, Variable]] = {
     **OUTPUTS,
@@ -111,7 +111,7 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
     ),
     "output_ratio": Variable("1", "rate of the output for a unit rate of one drive, SI units", _RATIO),
 }
-"""Of what is compared with the ideal motion."""
+"""Variables for comparison with the ideal motion."""
 
 OF_MODES: Final[dict[str, Variable]] = {
     "mode": Variable("", "number of the mode", ("mode",), named=True, parts="modes"),
@@ -137,7 +137,7 @@ OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
     **OUTPUTS_OF_CYCLE,
 }
-"""What a wear campaign writes down about each cycle."""
+"""Numbers of each cycle that a wear campaign keeps."""
 
 VARIABLES: Final[dict[str, Variable]] = {
     "body": Variable("", "name of the body", ("body",), named=True, names="bodies"),

@@ -171,7 +171,7 @@ def _real(vectors: NDArray[np.complex128]) -> FloatArray:
 
 @dataclass(frozen=True)
 class Vibrations:
-    """What a result holds of vibrations.
+    """Variables of a result on vibrations.
 
     Attributes
     ----------
@@ -243,7 +243,7 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
 
 
 def _instability(times: FloatArray, rate: FloatArray) -> list[str]:
-    """Return which positions are unstable, in words; ``rate`` is that of growth [1/s], shape (n_t,)."""
+    """Return the unstable positions in words; ``rate`` is that of growth [1/s], shape (n_t,)."""
     if not np.any(rate > 0.0):
         return []
     number, fastest = int(np.sum(rate > 0.0)), int(np.argmax(rate))
@@ -265,7 +265,7 @@ def _moving(bodies: Sequence[str], share: FloatArray) -> list[str]:
 
 
 def _free_motions(size: FloatArray) -> list[str]:
-    """Return how many motions nothing holds, in words."""
+    """Return the number of free motions in words."""
     most = int(np.max(np.sum(size == 0.0, axis=1), initial=0))
     if most == 0:
         return []

@@ -1,4 +1,4 @@
-"""How much a run of a user-defined mechanism computes and keeps."""
+"""Amount of work and memory of a run of a user-defined mechanism."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class Shaft(Group):
 
 
 class JournalDriveKeys(Group):
-    """What turns the journal."""
+    """Drive of the journal."""
 
     speed: SpeedTable | None = None
 
@@ -82,7 +82,7 @@ class JournalLoad(ShaftLoad):
     )
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+        """Check keys against each other."""
         self.check_given('force_x = "100 N"')
         self.check_opposing()
         self.check_followed(("times", "angles", "speeds"), "a load on the journal follows time or its angle")
@@ -101,7 +101,7 @@ class JournalLoad(ShaftLoad):
 
     @property
     def height(self) -> float:
-        """Where forces act along Z, from the centre [m]."""
+        """Height of the forces along Z, from the centre [m]."""
         if self.span is not None:
             return self.centroid
         return 0.0 if self.point is None else self.point[2]
@@ -126,7 +126,7 @@ class Tight(Solver):
 
 
 class JournalRunKeys(Group):
-    """How long, from where, and what is kept."""
+    """Duration, start and outputs."""
 
     duration: float = quantity("10 ms", "simulated time", "depends on film.lubricated", gt=0)
     start: Literal["offset", "equilibrium"] = choice(
@@ -184,7 +184,7 @@ class JournalCase(BushingCase):
         return () if self.drive.speed is None else ("journal.speed",)
 
     def doors(self) -> Doors:
-        """Return where functions for speed and loads go."""
+        """Return the keys for functions of speed and loads."""
         overridden = {name: f"0 {unit}" for name, unit in _COMPONENTS.items()}
         turned = self._turned()
         return Doors(
@@ -205,7 +205,7 @@ class JournalCase(BushingCase):
         return float(angle.min()), float(angle.max())
 
     def checks(self) -> tuple[Callable[[], object], ...]:
-        """Return what checks keys against each other."""
+        """Return the cross-checks of keys."""
         return (*super().checks(), self._check_run, self._check_form, self._check_loads)
 
     def _check_loads(self) -> None:

@@ -1,4 +1,4 @@
-"""What the run of a journal says about its own trustworthiness, in plain words."""
+"""Self-checks of a run of the journal, in plain words."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def warnings(
     statistics: Mapping[str, float],
     when: str,
 ) -> list[str]:
-    """Return what a user should know before trusting the numbers, one sentence each.
+    """Return the warnings on a run, one sentence each.
 
     Parameters
     ----------

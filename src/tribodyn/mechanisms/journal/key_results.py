@@ -92,4 +92,4 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
 """By name, in reading order."""
 
 KEY_NUMBERS: Final = ("settling_time_ms", "contact_force_max_N", "film_force_max_N")
-"""What a reader wants first."""
+"""Most important key results."""

@@ -15,7 +15,7 @@ from tribodyn.lubrication.film import Film
 
 @dataclass(frozen=True)
 class Loads:
-    """What acts on the centre of the journal.
+    """Loads on the centre of the journal.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a run of the mechanism that a journal is says in the coordinates and signs of the source paper."""
+"""Rows of a journal's run in the coordinates and signs of the source paper."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tribodyn.mechanisms.journal.variables import FILM, WATCHED
 TURNED: Final = "turned"
 """Name of the angle of rotation since the start [rad]; results do not hold it."""
 _SAME: Final = tuple(name for name in names(OF_BUSHING) if name in names(REPORTED))
-"""What a bushing and a surface of any joint report under one name and with one sign."""
+"""Quantities that a bushing and a surface of any joint report under one name and with one sign."""
 _OF_BEARING: Final = (
     *("joint_angle", "displacement", "tilt_x", "tilt_y", "relative_velocity", "relative_rate"),
     *("reaction_force_global", "reaction_moment_global", "film_force", "film_moment"),
@@ -32,7 +32,7 @@ _MOMENTS: Final = {"M_jc": "M_c", "M_k": "M_k", "M_f": "M_f"}
 
 
 def layout_of(mechanism: MechanismCase) -> Layout:
-    """Return which numbers of the mechanism a run keeps; it keeps the report of the bearing, too."""
+    """Return the numbers of the mechanism that a run keeps; it keeps the report of the bearing, too."""
     of_body = tuple(quantity for quantity in BODY if quantity.name == "angular_velocity")
     bearing, loads = (
         tuple(quantity for quantity in COUPLING if quantity.name in chosen)
@@ -51,7 +51,7 @@ def rows_of(
     spin_inertia: float,
     tilts: bool,
 ) -> dict[str, FloatArray]:
-    """Return what results of a journal are made from, each of shape (n_t,).
+    """Return the sources of a journal's results, each of shape (n_t,).
 
     Parameters
     ----------
@@ -175,6 +175,6 @@ def _peak(times: FloatArray, sizes: FloatArray) -> tuple[float, float]:
 
 
 def rebounds_of(rows: Mapping[str, FloatArray]) -> float:
-    """Return how often contact ended altogether, from row to row."""
+    """Return the number of times that contact ended altogether, from row to row."""
     touching = rows["contact_fraction"] > 0.0
     return float(np.count_nonzero(touching[:-1] & ~touching[1:]))

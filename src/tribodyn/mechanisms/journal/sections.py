@@ -1,4 +1,4 @@
-"""What the report shows of the journal: its chapters, and what a comparison lays over each other."""
+"""Content of the journal's report: its chapters, and the overlays of a comparison."""
 
 from __future__ import annotations
 
@@ -123,4 +123,4 @@ OVERLAYS: Final = (
     *overlay.BUSHING,
     Overlay("film", "Film force", (scaled("F_ox", "along X [N]", 1.0), scaled("F_oy", "along Y [N]", 1.0))),
 )
-"""What a comparison of runs shows."""
+"""Overlays of a comparison of runs."""

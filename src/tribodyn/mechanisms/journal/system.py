@@ -69,7 +69,7 @@ def journal_of(case: JournalCase) -> Journal:
 
 
 def _loads_at_start(case: JournalCase) -> Loads:
-    """Return what loads are at the start, of an axis at rest."""
+    """Return the loads at the start, of an axis at rest."""
     system = JournalSystem(case)
     problem = system.centred(case.duration)
     problem.functions.enter(0.0, problem.y0, problem.data, problem.memory)
@@ -151,7 +151,7 @@ class JournalSystem:
         )
 
     def rows(self, values: FloatArray) -> dict[str, FloatArray]:
-        """Return what was observed by name, in the terms of the paper; ``values`` are rows of a run."""
+        """Return the observed quantities by name, in the terms of the paper; ``values`` are rows of a run."""
         first = values.shape[1] - N_REPORT
         case, mechanism = self.case, self.assembly.model.case
         loads = [(load.point or (0.0, 0.0, 0.0), load.frame) for load in mechanism.loads.values()]
@@ -175,7 +175,7 @@ class JournalSystem:
         return np.empty(0)
 
     def gather(self, run: FinishedRun) -> ResultPart:
-        """Return what the mechanism knows about a run."""
+        """Return the mechanism's facts about a run."""
         rows = self.rows(run.solution.rows)
         # Whoever wants to stop does not wait for what takes many evaluations of a fine film.
         balance = None if run.solution.failure == INTERRUPTED else self.balance
@@ -216,7 +216,7 @@ class JournalSystem:
         )
 
     def _columns(self, rows: dict[str, FloatArray]) -> dict[str, FloatArray]:
-        """Return what is stored over time."""
+        """Return the quantities over time."""
         oil = self.journal.film is not None
         left_out = {TURNED, *(() if oil else names(FILM))}
         kept = {name: values for name, values in force_parts(rows).items() if name not in left_out}
@@ -243,7 +243,7 @@ class JournalSystem:
         balance: Equilibrium | None,
         largest: Mapping[str, float],
     ) -> dict[str, FloatArray]:
-        """Return what a run has one of, arrays of shape (); ``largest`` are peaks and extremes."""
+        """Return the single numbers of a run, arrays of shape (); ``largest`` are peaks and extremes."""
         found = {
             "settling_time": self._settling_time(run, rows, balance),
             "contact_start": _contact_start(run, rows),
@@ -289,7 +289,7 @@ class JournalSystem:
 
 
 def _followed(rows: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
-    """Return what a table follows: angle [rad], speed [rad/s], or speed of the centre [m/s]."""
+    """Return the coordinate of a table: angle [rad], speed [rad/s], or speed of the centre [m/s]."""
     if table.over == "velocities":
         return np.asarray(portable.hypot(rows["e_x_dot"], rows["e_y_dot"]))
     return rows["omega" if table.over == "speeds" else TURNED]

@@ -1,4 +1,4 @@
-"""How much a run of the journal computes and keeps."""
+"""Amount of work and memory of a run of the journal."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def speed_errors(dataset: xr.Dataset) -> Curves:
 
 
 def _ideal(dataset: xr.Dataset, name: str) -> FloatArray:
-    """Return what a variable would be without clearance [deg or deg/s], whatever the clearance."""
+    """Return the value of a variable without clearance [deg or deg/s], whatever the clearance."""
     return series(dataset.isel(clearance=0), f"{name}_ideal", DEGREES)
 
 

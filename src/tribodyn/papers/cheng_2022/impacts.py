@@ -1,4 +1,4 @@
-"""What happens in the impacts after the reversals."""
+"""Numbers of the impacts after the reversals."""
 
 from __future__ import annotations
 

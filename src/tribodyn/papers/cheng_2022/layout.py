@@ -1,4 +1,4 @@
-"""What the reproduced figures have in common: panels, insets, colours of the clearances."""
+"""Common parts of the reproduced figures: panels, enlarged stretches, colours of the clearances."""
 
 from __future__ import annotations
 

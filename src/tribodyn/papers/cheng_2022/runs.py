@@ -191,7 +191,7 @@ def finer(run: xr.Dataset, parts: int = 16) -> xr.Dataset:
 
 
 def is_smooth(dataset: xr.Dataset, time: FloatArray) -> NDArray[np.bool_]:
-    """Return which times [s] are outside the impacts that follow the start and each reversal."""
+    """Return the mask of times [s] outside the impacts that follow the start and each reversal."""
     half, impact = 0.5 * float(dataset.attrs["cycle_period"]), float(dataset.attrs["impact_time"])
     return np.asarray(np.mod(time, half) > impact)
 

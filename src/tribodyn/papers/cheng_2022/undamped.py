@@ -28,7 +28,7 @@ _ATOL: Final = {
 }
 """Absolute tolerances at the loosest relative one."""
 _SHOWN: Final = 0.3
-"""How long after the first reversal a run goes on [s]."""
+"""Time after the first reversal until which a run goes on [s]."""
 _ROWS: Final = 20_000
 """Samples kept of that time: every step, unless a run takes more."""
 _CYCLE: Final = 2.0 * math.pi
@@ -101,7 +101,7 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 
 def draw(dataset: xr.Dataset) -> Figure:
-    """Draw how large the contact force is over a cycle: a panel a combination, a curve a tolerance."""
+    """Draw the size of the contact force over a cycle: a panel a combination, a curve a tolerance."""
     figure = style.sheet(dataset, "The dry mechanism without damping, over one cycle", 5.0)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for axes, (formulation, friction) in zip(panels.flat, product(FORMULATIONS, FRICTIONS), strict=True):

@@ -28,9 +28,9 @@ SCRIPTS: Final = (
     "linkage.js",
     "choice.js",
 )
-"""What draws, in the order in which it runs: the same in every page."""
+"""Scripts that draw, in the order in which they run: the same in every page."""
 OF_REPORT: Final = ("parallel.js", "run.js")
-"""What only a report has."""
+"""Scripts of reports alone."""
 
 _POLICY: Final = (
     "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'"
@@ -39,7 +39,7 @@ _POLICY: Final = (
 
 @dataclass(frozen=True)
 class Inside:
-    """What stands inside a page.
+    """Content of a page.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Inside:
 
 @cache
 def inside(live: bool) -> Inside:
-    """Return what stands inside a report, with live figures or without."""
+    """Return the content of a report, with live figures or without."""
     script, style = joined((*SCRIPTS, *OF_REPORT)) if live else "", text("page.css")
     return Inside(script, style, _POLICY.format(_named(script) if live else "'none'", _named(style)))
 
@@ -75,5 +75,5 @@ def text(name: str) -> str:
 
 
 def _named(content: str) -> str:
-    """Return how a policy names a text: by its hash."""
+    """Return a text's name in a policy: its hash."""
     return f"'sha256-{base64.b64encode(hashlib.sha256(content.encode('utf-8')).digest()).decode('ascii')}'"

@@ -1,1 +1,1 @@
-"""What the page of the workbench is made of, beside what it shares with the report."""
+"""Parts of the workbench's page beside those that it shares with the report."""

@@ -1,4 +1,4 @@
-"""What the kinds of elements have in common.
+"""Common parts of the kinds of elements.
 
 The equation of an element is a sum over *legs*,
 
@@ -95,7 +95,7 @@ class Leg:
 
 @dataclass(frozen=True)
 class ForceLaw:
-    """What the multiplier of an element is.
+    """Meaning of an element's multiplier.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class ForceLaw:
 
 @dataclass(frozen=True)
 class Equation:
-    """What an element says of the sum over some legs: that it is constant, or what force acts along it."""
+    """Statement of an element on the sum over some legs: that it is constant, or the force along it."""
 
     legs: tuple[Leg, ...]
     law: ForceLaw | None

@@ -95,12 +95,12 @@ sampling_time = "5 ms"
 
     @property
     def measures(self) -> str:
-        """Which of :data:`SET` it controls; empty where it controls none."""
+        """Member of :data:`SET` that it controls; empty where it controls none."""
         return next((key for key in SET if getattr(self, key) is not None), "")
 
     @property
     def set_value(self) -> AnySetValue | None:
-        """What the measured value is to be."""
+        """Set value of the measured quantity."""
         found: AnySetValue | None = getattr(self, self.measures) if self.measures else None
         return found
 
@@ -132,7 +132,7 @@ sampling_time = "5 ms"
         return (self.leg_of(joints, "angle" if turns else "position", "this controller"),)
 
     def coordinates(self, joints: Joints) -> tuple[str, str]:
-        """Return what a function may measure of the joint: the coordinate and its rate."""
+        """Return the measurements of a joint for a function: the coordinate and its rate."""
         return ("angle", "speed") if self._turns(joints) else ("position", "velocity")
 
     def check_run(self, duration: float, *, dynamic: bool, campaign: bool) -> None:

@@ -21,7 +21,7 @@ _ROOM: Final = 0.08
 
 
 def moving(dataset: xr.Dataset, times: FloatArray) -> tuple[Skeleton, FloatArray, FloatArray]:
-    """Return what is drawn, with positions and orientations at some times; refuse what does not move."""
+    """Return the picture's content, with positions and orientations at some times; refuse a body at rest."""
     case, motion = case_of(dataset), at_times(dataset, times)
     if case is None or motion is None:
         raise InputError("this result holds no motion to show", key="animate")

@@ -1,4 +1,4 @@
-"""What the types of joints have in common.
+"""Common parts of the types of joints.
 
 A type of ideal joint is a list of constraint equations on the displacement and the rotation of its second
 body against the first, in axes of which z is the axis of the joint.
@@ -67,7 +67,7 @@ class JointType:
 
     @property
     def named(self) -> str:
-        """What it is, with its article: ``a revolute joint``."""
+        """Name with its article: ``a revolute joint``."""
         return f"{'an' if self.NAME[0] in 'aeio' else 'a'} {self.NAME} joint"
 
     @property

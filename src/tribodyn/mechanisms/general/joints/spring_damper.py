@@ -71,5 +71,5 @@ class SpringDamper(JointType):
 
 
 def _six(along: Vector | None, about: Vector | None) -> list[float]:
-    """Return what is given for two kinds of motion, along and about x, y, z."""
+    """Return the given values of two kinds of motion, along and about x, y, z."""
     return [given[k] for given in (along or (0.0,) * 3, about or (0.0,) * 3) for k in _OF_AXES]

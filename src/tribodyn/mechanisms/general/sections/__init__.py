@@ -1,4 +1,4 @@
-"""What the report shows of a mechanism: its chapters, and what a comparison lays over each other."""
+"""Content of a mechanism's report: its chapters, and the overlays of a comparison."""
 
 from __future__ import annotations
 
@@ -63,4 +63,4 @@ OVERLAYS: Final = (
         ),
     ),
 )
-"""What a comparison of runs shows."""
+"""Overlays of a comparison of runs."""

@@ -56,7 +56,7 @@ def joint_forces(dataset: xr.Dataset) -> list[Panel]:
 
 
 def clearances(dataset: xr.Dataset) -> list[Panel]:
-    """Return how far shafts leave the middle of their bores [µm], peak pressures [MPa], clearances [µm]."""
+    """Return offsets of shafts in their bores [µm], peak pressures [MPa], clearances [µm]."""
     real = np.isfinite(dataset["clearance"].values)
     names = [name for name, wanted in zip(_names(dataset, "joint"), real, strict=True) if wanted]
     warming = []

@@ -1,4 +1,4 @@
-"""What happens in the joints: forces, the motion in the clearance, pressure and wear, joint by joint."""
+"""Sections on the joints: forces, the motion in the clearance, pressure and wear, joint by joint."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def _vector(label: str, values: FloatArray) -> Panel:
 
 
 def orbits(dataset: xr.Dataset) -> Payload | None:
-    """Return where the shaft of every joint with clearance is, across its axis [µm]."""
+    """Return the places of the shafts of all joints with clearance, across their axes [µm]."""
     times = playback_times(dataset)
     if times.size < 2:
         return None

@@ -26,7 +26,7 @@ _NUMBERS: Final = {over: number for number, over in enumerate(_OVER)}
 
 @dataclass(frozen=True)
 class LoadArrows:
-    """What a load does at the frames.
+    """Point, force and moment of a load at the frames.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class LoadArrows:
 def load_arrows(
     dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, position: FloatArray, orientation: FloatArray
 ) -> dict[str, LoadArrows]:
-    """Return what loads do at the frames, by name; those whose motion the result holds.
+    """Return points, forces and moments of loads at the frames, by name, for those with stored motion.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ class _Load:
         return self._interpolated(coordinate(self.case, columns, self.load.along, over))
 
     def _interpolated(self, values: FloatArray) -> FloatArray:
-        """Return what rows hold at the frames, shape (n_frames, ...)."""
+        """Return rows at the frames, shape (n_frames, ...)."""
         times, time = playback_times(self.dataset), self.dataset["time"].values
         if values.ndim == 1:
             return np.interp(times, time, values)

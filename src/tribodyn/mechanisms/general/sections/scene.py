@@ -1,4 +1,4 @@
-"""What a scene shows beside bodies: motion in clearances, to be magnified; forces and moments as arrows."""
+"""Parts of a scene beside bodies: motion in clearances, to be magnified; forces and moments as arrows."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def _axes(case: MechanismCase, joint: JointKeys, drawn: Skeleton, orientation: F
 
 
 def _tilt(dataset: xr.Dataset, joint: int, times: FloatArray) -> FloatArray:
-    """Return how the direction of a shaft differs from that of its bore, axes of the joint, shape (n, 3)."""
+    """Return the tilt of a shaft against its bore, axes of the joint, shape (n, 3)."""
     time = dataset["time"].values
     x, y = (np.interp(times, time, dataset[name].values[:, joint]) for name in ("tilt_x", "tilt_y"))
     return np.stack([y, -x, 0.0 * x], axis=-1)

@@ -1,4 +1,4 @@
-"""How shafts move in their bores between the rows of a result."""
+"""Motion of shafts in their bores between the rows of a result."""
 
 from __future__ import annotations
 

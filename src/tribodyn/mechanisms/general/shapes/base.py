@@ -1,4 +1,4 @@
-"""What the shapes of a clearance have in common."""
+"""Common parts of the shapes of a clearance."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class ClearanceShape:
         raise NotImplementedError
 
     def room(self, shape: Any) -> tuple[float, float, float]:
-        """Return how far the shaft may move across and along the axis, and over which length it tilts [m].
+        """Return the play of the shaft across and along the axis, and the length over which it tilts [m].
 
         A length of 0 is one over which it may tilt freely.
         """

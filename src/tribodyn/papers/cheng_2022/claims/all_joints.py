@@ -74,7 +74,7 @@ def speed_error(trial: Trial, clearance: float) -> Finding:
 
 
 def claims(clearance: float, angle: float, speed: float, sentence: str) -> tuple[Claim, ...]:
-    """Return what the paper says of all joints at a clearance [m], by the errors of one [deg, deg/s]."""
+    """Return the paper's claims on all joints at a clearance [m], by the errors of one [deg, deg/s]."""
     at = f"{clearance * 1e6:g} µm"
     return (
         Claim(

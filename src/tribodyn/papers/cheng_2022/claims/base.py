@@ -1,4 +1,4 @@
-"""What a claim is, its sentences in the paper, and what it is measured on."""
+"""Types of a claim: its sentences in the paper, its measure and its trials."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ Formulations: TypeAlias = Literal["both", "alike", "exact"]
 
 @dataclass(frozen=True)
 class Trial:
-    """What a claim is measured on: runs of one formulation, with some assumptions changed.
+    """Runs of one formulation on which a claim is measured, with some assumptions changed.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ GUIDE: Final = Assumption(
 
 @dataclass(frozen=True)
 class Finding:
-    """What one formulation gives.
+    """Finding of one formulation.
 
     Attributes
     ----------
@@ -182,7 +182,7 @@ class Claim:
 
     @property
     def quantity(self) -> str:
-        """What is measured, from the docstring of ``measure``."""
+        """Measured quantity, from the docstring of ``measure``."""
         if self.measure is None:
             return ""
         source = self.measure.func if isinstance(self.measure, partial) else self.measure

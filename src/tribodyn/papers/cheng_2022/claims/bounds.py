@@ -1,4 +1,4 @@
-"""How a measured number is judged: verdicts, bounds, and who chose a bound and when."""
+"""Judgement of a measured number: verdicts, bounds, and the origin of each bound."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ REVIEWED: Final = "2026-11-23"
 
 @dataclass(frozen=True)
 class Bound:
-    """Where a number must lie.
+    """Interval in which a number must lie.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Bound:
     factors: bool = False
 
     def verdict(self, value: float) -> Verdict:
-        """Return what a number makes of the claim; NaN contradicts it."""
+        """Return the verdict on a number; NaN contradicts the claim."""
         if self.full[0] < value < self.full[1]:
             return "reproduced"
         return "differs" if self.partly[0] < value < self.partly[1] else "contradicted"

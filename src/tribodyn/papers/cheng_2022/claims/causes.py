@@ -68,7 +68,7 @@ def phi_y_by_adjustment(trial: Trial) -> Finding:
 
 
 def _agreement(share: float) -> float:
-    """Return how often two signs go together, alike or opposite, whichever is more often [%]."""
+    """Return the share of times at which two signs are alike or opposite, whichever is larger [%]."""
     return float(np.maximum(share, 100.0 - share))
 
 

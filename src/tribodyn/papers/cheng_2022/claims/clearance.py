@@ -19,7 +19,7 @@ from tribodyn.papers.cheng_2022.runs import smooth
 _NARROW: Final = 30e-6
 """Wider clearances are the paper's large ones, 35 and 40 µm [m]."""
 _SWITCH: Final = 0.1
-"""What happens this near to 90° in time is caused by the load that changes sign there [s]."""
+"""Distance from 90° in time within which the load that changes sign there is the cause [s]."""
 _FINE: Final = {"run.duration": "1.6 s", "run.output_interval": "0.5 ms"}
 """Until after the first time that the vane passes 90°, with rows that resolve what rings there."""
 

@@ -123,7 +123,7 @@ def oil_same_path(trial: Trial) -> Finding:
 
 
 def fall_time(run: xr.Dataset) -> float:
-    """Return how long the force of the film takes from 90 to 10 % of its largest value [ms]."""
+    """Return the time in which the force of the film falls from 90 to 10 % of its largest value [ms]."""
     time, force = run["time"].values * 1e3, _size(run, "F_o")
     start = int(force.argmax())
     late, falling = time[start:], force[start:] / force[start]

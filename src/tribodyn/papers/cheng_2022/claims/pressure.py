@@ -21,7 +21,7 @@ SHARES: Final = (0.02, ZONE, 0.1)
 def contact_arc(
     theta: FloatArray, pressure: FloatArray, middle: float, share: float = ZONE
 ) -> tuple[float, float]:
-    """Return where contact begins and ends, unrolled around ``middle`` [deg].
+    """Return the beginning and the end of contact, unrolled around ``middle`` [deg].
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def contact_arc(
 
 
 def _crossing(angle: FloatArray, level: FloatArray, inner: int, outer: int) -> float:
-    """Return where the level passes zero between two neighbouring nodes; the inner one at the seam."""
+    """Return the zero of the level between two neighbouring nodes; the inner one at the seam."""
     if not 0 <= outer < angle.size:
         return float(angle[inner])
     share = level[inner] / (level[inner] - level[outer])

@@ -1,4 +1,4 @@
-"""What is left of an error in smooth motion."""
+"""Remaining error in smooth motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How many claims and sentences have which verdict, and how much of that rests on our bounds."""
+"""Counts of claims and sentences by verdict, and the share that rests on our bounds."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def by_sentence(rows: Iterable[Row], formulation: str) -> dict[str, Verdict]:
 
 
 def counts(verdicts: Iterable[Verdict]) -> dict[Verdict, int]:
-    """Return how often each verdict occurs, in the order of :data:`VERDICTS`."""
+    """Return the number of times that each verdict occurs, in the order of :data:`VERDICTS`."""
     found = Counter(verdicts)
     return {verdict: found[verdict] for verdict in VERDICTS}
 

@@ -38,12 +38,12 @@ class Row:
 
     @property
     def verdict(self) -> Verdict:
-        """What the paper's own formulation makes of the claim."""
+        """Verdict of the paper's own formulation."""
         return self._verdict(self.paper, varied=self.paper is not None)
 
     @property
     def exact_verdict(self) -> Verdict:
-        """What the formulation ``exact`` makes of it."""
+        """Verdict of the formulation ``exact``."""
         if self.claim.formulations == "alike":
             return self.verdict
         return self._verdict(self.exact, varied=self.claim.formulations == "exact")

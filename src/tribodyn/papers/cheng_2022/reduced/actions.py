@@ -1,4 +1,4 @@
-"""What drives and loads the vane mechanism, but for the loads of the paper: keys and cross-checks."""
+"""Drives and loads of the vane mechanism beside the loads of the paper: keys and cross-checks."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class CrankKeys(Group):
 
     @property
     def table(self) -> tuple[str, AngleTable | SpeedTable | PositionTable] | None:
-        """What the crank follows, with its name; None for the sinusoid."""
+        """Signal of the crank, with its name; None for the sinusoid."""
         return next(
             ((name, found) for name in DRIVE_TABLES if (found := getattr(self, name)) is not None), None
         )
@@ -93,7 +93,7 @@ class VaneLoad(ShaftLoad):
     )
 
     def model_post_init(self, context: object, /) -> None:
-        """Check what involves several keys."""
+        """Check keys against each other."""
         demand(
             self.span is None or self.centre_of_pressure is None,
             "centre_of_pressure",
@@ -132,7 +132,7 @@ class _Shaken(NamedGroup):
     """Forces and a moment by their size."""
 
     SIZE: ClassVar[str]
-    """Which key of a signal the sizes are."""
+    """Key of a signal that holds the sizes."""
 
     force_x: float | None = quantity(None, "force along X", "", example="0.5 N")
     force_y: float | None = quantity(None, "force along Y", "", example="0.5 N")

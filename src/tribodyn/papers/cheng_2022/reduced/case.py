@@ -144,7 +144,7 @@ class VaneWear(Wear):
 
 
 class VsvRunKeys(Group):
-    """How long, from where, and what is kept."""
+    """Duration, start and outputs."""
 
     cycles: float | None = number(
         None, "drive cycles; give this or duration", "paper, section 5.2", gt=0, le=10000, example="2"
@@ -282,7 +282,7 @@ class VsvCase(BushingCase):
         return ("drive.speed_amplitude", "drive.angular_frequency", *start)
 
     def doors(self) -> Doors:
-        """Return where functions for drive and loads go."""
+        """Return the keys for functions of drive and loads."""
         from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_range
 
         crank = self.crank.crank_range(self.duration)
@@ -304,7 +304,7 @@ class VsvCase(BushingCase):
         )
 
     def checks(self) -> tuple[Callable[[], object], ...]:
-        """Return what checks keys against each other."""
+        """Return the cross-checks of keys."""
         own = (
             self._check_run,
             self._check_campaign,

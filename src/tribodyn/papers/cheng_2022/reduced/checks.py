@@ -1,4 +1,4 @@
-"""What a run of the vane mechanism says about its own trustworthiness, in plain words."""
+"""Self-checks of a run of the vane mechanism, in plain words."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def warnings(
     statistics: Mapping[str, float],
     when: str,
 ) -> list[str]:
-    """Return what a user should know before trusting the numbers, one sentence each.
+    """Return the warnings on a run, one sentence each.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def notes(
     turns: FloatArray,
     carried: bool,
 ) -> list[str]:
-    """Return what a user should know of the numbers although they are valid, one sentence each.
+    """Return notes on numbers that are valid, one sentence each.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def lift_off_share(found: Mapping[str, float], t_end: float) -> float:
 
 
 def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> str:
-    """Say which reversals of a drive cycle the run does not hold with what follows them."""
+    """Report the reversals of a drive cycle that the run does not hold with their impacts."""
     period = vsv.drive.period
     cycle = run_segments(vsv, period)
     ends = cycle.segments.direction[[0, -1]]

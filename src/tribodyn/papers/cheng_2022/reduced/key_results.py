@@ -250,4 +250,4 @@ KEY_NUMBERS: Final = (
     "wear_depth_rate_nm_per_1000_cycles",
     "clearance_energy_residual_percent",
 )
-"""What a reader wants first."""
+"""Most important key results."""

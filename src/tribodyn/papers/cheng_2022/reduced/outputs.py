@@ -74,7 +74,7 @@ def output_fields(
 def error_growth(
     outputs: Mapping[str, VaneOutput], mechanism: Record, poses: FloatArray, moved: FloatArray
 ) -> FloatArray:
-    """Return what displacements of the trunnion add to the errors of outputs, shape (n_t, n_outputs).
+    """Return the errors of outputs by displacements of the trunnion, shape (n_t, n_outputs).
 
     Parameters
     ----------

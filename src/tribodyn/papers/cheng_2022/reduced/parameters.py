@@ -85,7 +85,7 @@ class CrankMotion:
 
     @property
     def impact_time(self) -> float:
-        """How long impacts last after a reversal [s]."""
+        """Length of impacts after a reversal [s]."""
         return impact_time(self.period)
 
     @property
@@ -142,7 +142,7 @@ class TableDrive:
 
     @property
     def impact_time(self) -> float:
-        """How long impacts last after a reversal [s]."""
+        """Length of impacts after a reversal [s]."""
         return impact_time(self.period)
 
     @cached_property

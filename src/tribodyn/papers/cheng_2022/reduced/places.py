@@ -1,4 +1,4 @@
-"""Where the bodies of the mechanism are, in the millimetres of pictures."""
+"""Places of the mechanism's bodies, in the millimetres of pictures."""
 
 from __future__ import annotations
 

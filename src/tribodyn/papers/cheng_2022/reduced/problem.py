@@ -48,7 +48,7 @@ FUNCTIONS: Final = CompiledFunctions(
 
 
 def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.inf) -> VsvData:
-    """Return what the kernels read.
+    """Return the data of the kernels.
 
     Parameters
     ----------

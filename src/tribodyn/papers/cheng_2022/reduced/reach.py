@@ -1,4 +1,4 @@
-"""Where the mechanism can be: the vane angle of the ideal mechanism over the crank angle."""
+"""Range of the mechanism: the vane angle of the ideal mechanism over the crank angle."""
 
 from __future__ import annotations
 

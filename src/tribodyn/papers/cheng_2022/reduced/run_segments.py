@@ -1,4 +1,4 @@
-"""When the vane turns and where tables kink: the instants at which an integration restarts."""
+"""Instants at which an integration restarts: reversals of the vane and kinks of tables."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import dead_centres, ideal_table
 
 CLEARANCE_ROOM: Final = 0.01
-"""What clearance may add to θ_v, generously [rad]."""
+"""Largest change of θ_v by clearance, generously [rad]."""
 
 
 @dataclass(frozen=True)
 class RunSegments:
-    """What happens in a run.
+    """Events of a run.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ def ideal_range(lengths: Lengths, drive: AnyDrive, duration: float) -> tuple[flo
 
 
 def run_segments(vsv: Vsv, duration: float) -> RunSegments:
-    """Return what happens in a run of ``duration`` [s]; of one without end, in its first drive cycle."""
+    """Return the events of a run of ``duration`` [s]; of one without end, in its first drive cycle."""
     duration = duration if math.isfinite(duration) else vsv.drive.period
     return _run_segments(vsv.lengths, vsv.drive, vsv.terms, vsv.opening, duration)
 

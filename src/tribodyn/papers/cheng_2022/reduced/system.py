@@ -52,14 +52,14 @@ from tribodyn.results.attributes import CARRIED
 from tribodyn.wear import loaded_depth
 
 _POSE: Final = ("theta_a", "e_x", "e_y", "phi_x", "phi_y")
-"""What the angle of the vane follows from."""
+"""Coordinates from which the angle of the vane follows."""
 _FOLLOWED: Final = {
     ("the vane", "angles"): "theta_v",
     ("the crank", "angles"): "theta_a",
     ("the vane", "speeds"): "omega_v",
     ("the crank", "speeds"): "omega_a",
 }
-"""What tables over angles and speeds follow."""
+"""Coordinates that tables over angles and speeds follow."""
 
 
 def vsv_of(case: VsvCase) -> Vsv:
@@ -186,7 +186,7 @@ class VsvSystem:
         return np.swapaxes(depth, -1, -2)
 
     def carried(self, run: FinishedRun) -> Carried:
-        """Return what the next cycle continues from."""
+        """Return the state from which the next cycle continues."""
         return Carried(run.solution.y_end, run.problem.memory.joint.entry_velocity)
 
     def contact_energy(self, worn: Worn) -> float:
@@ -213,7 +213,7 @@ class VsvSystem:
         return dict(zip(self.case.outputs, found.tolist(), strict=True))
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
-        """Return what a campaign writes down about the motion of one cycle."""
+        """Return the numbers of one cycle that a campaign keeps."""
         t, rows = run.solution.t, run.rows(OBSERVED)
         error = rows["theta_v"] - rows["theta_v_ideal"]
         return {
@@ -227,7 +227,7 @@ class VsvSystem:
         }
 
     def gather(self, run: FinishedRun) -> ResultPart:
-        """Return what the mechanism knows about a run."""
+        """Return the mechanism's facts about a run."""
         rows = run.rows(OBSERVED)
         balance = balance_columns(rows)
         whole, of_clearance = WHOLE.fraction(balance), CLEARANCE.fraction(balance)
@@ -323,7 +323,7 @@ class VsvSystem:
         return np.isin(run.solution.picture_times, snapshots(self.vsv, run.duration))
 
     def _playback(self, run: FinishedRun) -> slice:
-        """Return which pictures are the frames of the playback."""
+        """Return the pictures that are frames of the playback."""
         return shown(run.solution.picture_times, run.duration, self.period)
 
     def _fields(self, run: FinishedRun) -> dict[str, NDArray[np.floating]]:

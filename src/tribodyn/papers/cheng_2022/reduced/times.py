@@ -1,4 +1,4 @@
-"""When a run keeps rows and pictures."""
+"""Times at which a run keeps rows and pictures."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_se
 _WATCHED: Final = tuple(
     (OBSERVED.index(name),) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
 )
-"""What keeps its peaks where there are more steps than rows."""
+"""Quantities whose peaks are kept where there are more steps than rows."""
 _STRIDE: Final = 3
 _END_SHARE: Final = 0.02
 """Share of the vane's range by which pictures near the reversals stand off their impacts."""
@@ -38,7 +38,7 @@ def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:
 
 
 def following(case: VsvCase, vsv: Vsv, duration: float, wanted: FloatArray) -> Following | None:
-    """Return where rows follow the steps: after the start and each reversal, for ``run.impact_window``.
+    """Return the intervals in which rows follow the steps: ``run.impact_window`` after start and reversals.
 
     The impacts there last milliseconds, those of ``paper`` some 25 µs. Every third step shows them; a row of
     each would take a tenth of the time of a run. Those where ``wanted`` is set by the kernels are the peaks.

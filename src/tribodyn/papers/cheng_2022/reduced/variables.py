@@ -1,4 +1,4 @@
-"""What results of the vane mechanism hold beside what every result has: one line a variable."""
+"""Variables of the vane mechanism's results beside those of every result: one line a variable."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
     **OUTPUTS_OF_CYCLE,
 }
-"""What a wear campaign writes down about each cycle."""
+"""Numbers of each cycle that a wear campaign keeps."""
 
 VARIABLES: Final[dict[str, Variable]] = {
     **described(MOTION, COLLAR, REACTIONS, AIR, ENERGIES),

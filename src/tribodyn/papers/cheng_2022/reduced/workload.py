@@ -1,4 +1,4 @@
-"""How much a run of the variable stator vane mechanism computes and keeps."""
+"""Amount of work and memory of a run of the variable stator vane mechanism."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ def draw(dataset: xr.Dataset) -> Figure:
 
 
 def _moments(angle: FloatArray) -> tuple[int, int, int]:
-    """Return where the vane angle is smallest, in the middle of its range, and largest."""
+    """Return the positions of the smallest, the middle and the largest vane angle."""
     middle = 0.5 * (np.nanmin(angle) + np.nanmax(angle))
     return int(np.nanargmin(angle)), int(np.nanargmin(np.abs(angle - middle))), int(np.nanargmax(angle))
 
@@ -80,7 +80,7 @@ def _draw_at(
 
 
 def _frame(along: Axes, above: Axes, case: VsvCase) -> None:
-    """Draw what stays, and name the bodies."""
+    """Draw the bodies at rest, and name the bodies."""
     m, joint = case.mechanism, case.joint
     top, half = MM * m.ring_radius, MM * joint.radius
     along.plot(

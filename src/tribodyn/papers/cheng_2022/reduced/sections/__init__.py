@@ -1,4 +1,4 @@
-"""What the report shows of the vane mechanism: its chapters, and what a comparison lays over each other."""
+"""Content of the vane mechanism's report: its chapters, and the overlays of a comparison."""
 
 from __future__ import annotations
 
@@ -74,4 +74,4 @@ OVERLAYS: Final = (
     *overlay.BUSHING,
     Overlay("drive", "Drive moment", (scaled("M_d", "drive moment [N m]", 1.0),)),
 )
-"""What a comparison of runs shows."""
+"""Overlays of a comparison of runs."""

@@ -46,7 +46,7 @@ def _switch(dataset: xr.Dataset) -> list[ChartCurve]:
 
 
 def _snapshots(dataset: xr.Dataset) -> ChartMarks | None:
-    """Return where the pressure snapshots were taken, with the letters of that figure."""
+    """Return the times of the pressure snapshots, with the letters of that figure."""
     if "snapshot_time" not in dataset:
         return None
     times, angles = series(dataset, "snapshot_time"), series(dataset, "snapshot_theta_v", DEG)
