@@ -182,6 +182,10 @@ class Case(Group):
         words = "parameters.{} is used by no value of the case: use it in an expression, or remove it."
         return Remarks(tuple(words.format(name) for name in unused))
 
+    def assumed_wear(self) -> tuple[str, ...]:
+        """Return the joints, as in names of numbers, whose wear rate nobody chose; an empty name for all."""
+        return ()
+
     def idle(self) -> tuple[str, ...]:
         """Return the paths of keys that others override; by default there are none."""
         return ()

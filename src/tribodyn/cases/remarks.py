@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from types import MappingProxyType
@@ -38,6 +38,32 @@ def of_surfaces(case: Case, prefix: str = "", beside: Mapping[str, Sequence[str]
         tuple(warnings + [text for one in used for text in one.warnings()]),
         tuple(chain(*(one.notes() for one in used), _of_heights(case, prefix), _of_law(case, keys, prefix))),
     )
+
+
+def has_material(case: Case, prefix: str = "") -> bool:
+    """Return whether somebody named the material of a bushing or gave its stiffness or hardness."""
+    names = (MATERIAL, "young_modulus", "hardness")
+    return any(case.given(f"{prefix}surfaces.bushing.{name}") is not None for name in names)
+
+
+def of_choice(case: Case, prefixes: Iterable[str]) -> Remarks:
+    """Return the note on sets of surfaces, by what their keys begin with, whose material nobody chose."""
+    left = [f"{prefix}surfaces.bushing.{MATERIAL}" for prefix in prefixes if not has_material(case, prefix)]
+    if not left:
+        return Remarks()
+    words = (
+        "Nobody chose a material: surfaces are those of the paper, polyimide on 17-4 PH steel of an "
+        f"aero-engine. Choose {', '.join(left)} (`tribodyn materials` lists them). Wear rates and lives of "
+        "such surfaces are shown in grey."
+    )
+    return Remarks((), (words,))
+
+
+def has_wear_rate(case: Case, prefix: str = "") -> bool:
+    """Return whether somebody gave the wear rate of a bushing, or a material for which one is known."""
+    name = case.at(f"{prefix}surfaces.bushing.{MATERIAL}")
+    known = name is not None and "specific_wear_rate" in MATERIALS[str(name)].properties
+    return known or case.given(f"{prefix}{_WEAR}") is not None
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,12 @@ def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     yield from (grey(line, warning) for line in _numbers(summary))
 
 
+def _mark(name: str, summary: Mapping[str, object]) -> bool:
+    """Return whether a number is grey by itself: it follows from a material that nobody chose."""
+    assumed = summary.get("assumed")
+    return not summary.get("doubtful") and isinstance(assumed, list) and name in assumed
+
+
 def grey(text: str, warning: object) -> str:
     """Return a text that a terminal shows in grey where there is a warning, unless colours are unwanted."""
     wanted = warning and sys.stdout.isatty() and "NO_COLOR" not in os.environ
@@ -58,14 +64,17 @@ def _lines(key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) 
     labels = {name: key_result.label_in(summary) for name, key_result in key_results.items()}
     width = max(map(len, labels.values()), default=0)
     for name, one in key_results.items():
-        yield f"  {labels[name]:<{width}}  {_number(summary[name], one.digits)} {one.unit}".rstrip()
+        line = f"  {labels[name]:<{width}}  {_number(summary[name], one.digits)} {one.unit}".rstrip()
+        yield grey(line, _mark(name, summary))
 
 
 def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) -> Iterator[str]:
     """Give a table with a row for each part and a column for each quantity."""
     columns = {f"{h.column_in(summary)} {h.unit}".strip(): "" for h in key_results.values()}
     cells = {
-        (h.part, f"{h.column_in(summary)} {h.unit}".strip()): _number(summary[name], h.digits)
+        (h.part, f"{h.column_in(summary)} {h.unit}".strip()): grey(
+            f"{_number(summary[name], h.digits):>{_COLUMN}}", _mark(name, summary)
+        )
         for name, h in key_results.items()
     }
     parts = dict.fromkeys(h.part for h in key_results.values())
@@ -76,7 +85,7 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
         yield from [""] if number else []
         yield from (f"  {line}" for line in _heading({group: (group, width)}, {name: name for name in shown}))
         for part in parts:
-            row = (f"{cells.get((part, name), '–'):>{_COLUMN}}" for name in shown)
+            row = (cells.get((part, name), f"{'–':>{_COLUMN}}") for name in shown)
             yield f"  {part:<{width}}  {'  '.join(row)}"
 
 

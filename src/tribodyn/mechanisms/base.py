@@ -126,6 +126,10 @@ class SystemCase(Protocol):
         """Its table ``[solver]``."""
         ...
 
+    def assumed_wear(self) -> tuple[str, ...]:
+        """Return the joints whose wear rate nobody chose, see :class:`~tribodyn.cases.case.Case`."""
+        ...
+
     def remarks(self) -> Remarks:
         """Return remarks on its values."""
         ...

@@ -27,8 +27,9 @@ _FIRST_RESULTS: Final = 3
 _FIRST_WARNINGS: Final = 2
 """Key results and warnings beside the moving mechanism; all others follow below."""
 
-Number = dict[str, str]
-"""A key result with ``label``, ``value``, ``unit`` and ``meaning``."""
+Number = dict[str, str | bool]
+"""A key result with ``label``, ``value``, ``unit``, ``meaning`` and whether it is ``assumed``."""
+_NO_CELL: Final = {"value": "–", "assumed": False}
 
 
 def number(key_result: KeyResult, summary: Mapping[str, Any], name: str) -> Number:
@@ -38,6 +39,7 @@ def number(key_result: KeyResult, summary: Mapping[str, Any], name: str) -> Numb
         "value": in_words(summary[name], key_result.digits),
         "unit": key_result.unit,
         "meaning": key_result.meaning,
+        "assumed": name in summary.get("assumed", ()),
     }
 
 
@@ -70,7 +72,10 @@ def tables(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
 def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, Any]) -> dict[str, Any]:
     columns = {(one.column_in(summary), one.unit): one for one in key_results.values()}
     cells = {
-        (one.part, one.column_in(summary), one.unit): in_words(summary[name], one.digits)
+        (one.part, one.column_in(summary), one.unit): {
+            "value": in_words(summary[name], one.digits),
+            "assumed": name in summary.get("assumed", ()),
+        }
         for name, one in key_results.items()
     }
     parts = dict.fromkeys(one.part for one in key_results.values())
@@ -80,7 +85,8 @@ def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
             {"label": label, "unit": unit, "meaning": one.meaning} for (label, unit), one in columns.items()
         ],
         "rows": [
-            {"part": part, "cells": [cells.get((part, *column), "–") for column in columns]} for part in parts
+            {"part": part, "cells": [cells.get((part, *column), _NO_CELL) for column in columns]}
+            for part in parts
         ],
     }
 

@@ -26,6 +26,8 @@ DATA_HASH: Final = "data_sha256"
 """SHA-256 of all that a run was computed from."""
 ROWS_HASH: Final = "rows_sha256"
 """SHA-256 of its rows."""
+ASSUMED_WEAR: Final = "assumed_wear"
+"""Joints, as in names of numbers, whose wear rate nobody chose; an empty name for all."""
 NOT_KEPT: Final = "not_kept"
 """Names of variables that the case did not ask for."""
 
@@ -46,6 +48,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     "warnings": TEXTS,
     "notes": TEXTS,
     "varied": TEXTS,
+    ASSUMED_WEAR: TEXTS,
     NOT_KEPT: TEXTS,
 }
 """Attributes of a dataset by name."""

@@ -33,7 +33,7 @@ LARGEST: Final = 1e60
 """Size of a number, at most: products and squares of numbers are numbers, too."""
 LONGEST: Final = 1_000_000
 """Length of a text, at most."""
-LISTS: Final = ("warnings", "notes")
+LISTS: Final = ("warnings", "notes", "assumed")
 """Keys of a summary that hold lists."""
 MOST_VARIABLES: Final = 200
 """Variables of a sweep, at most: each is drawn."""

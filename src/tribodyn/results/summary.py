@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
@@ -10,7 +11,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import xarray as xr
 
-from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
+from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
 from tribodyn.results.dataset import json_attribute
 from tribodyn.results.reading import column, reading_once, statistic
 
@@ -124,6 +125,8 @@ EFFORT: Final[dict[str, KeyResult]] = {
 """Key results of every run, by name in ``summary.json``."""
 
 
+_OF_WEAR: Final = re.compile(r"wear_(depth_)?rate|(wear|bore|shaft)_life")
+"""Names of wear rates and lives by wear."""
 DOUBTFUL: Final = 0.05
 """Energy that a run misses, over the largest term of its balance, beyond which no number should be used."""
 
@@ -158,7 +161,8 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
     dict
         Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none),
         ``doubtful`` (see :func:`warning`), the lists of ``warnings`` and ``notes``, the
-        hashes of data and rows, then numbers by name.
+        hashes of data and rows, then numbers by name; at last ``assumed``, the names of wear rates and lives
+        that follow from a material that nobody chose.
     """
     failure = str(dataset.attrs.get("failure", ""))
     summary: Summary = {
@@ -176,7 +180,21 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
             value = _number(key_result, dataset)
             if math.isfinite(value):
                 summary[name] = int(value) if key_result.count else value
+    summary["assumed"] = _assumed(
+        dataset, {name: key_results[name] for name in summary if name in key_results}
+    )
     return summary
+
+
+def _assumed(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> list[str]:
+    """Return the names of wear rates and lives that follow from a wear rate that nobody chose."""
+    joints = json_attribute(dataset, ASSUMED_WEAR, [])
+    of_joints = set(joints) if any(joints) else set()
+    return [
+        name
+        for name, key_result in key_results.items()
+        if joints and _OF_WEAR.search(name) and (not key_result.part or key_result.part in of_joints)
+    ]
 
 
 def _number(key_result: KeyResult, dataset: xr.Dataset) -> float:

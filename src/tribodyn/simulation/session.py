@@ -13,7 +13,7 @@ from tribodyn.integrate import INTERRUPTED, integrate
 from tribodyn.mechanisms.base import FinishedRun, MechanismDescriptor, ResultPart, SimulatedSystem, SystemCase
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
-from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
+from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
 from tribodyn.simulation import hashes
 
 Progress = Callable[[float], None] | None
@@ -77,6 +77,7 @@ class Session:
                 "solver": {"name": solver.name, "rtol": solver.rtol, **run.cost},
                 **part.attributes,
                 **more.attributes,
+                ASSUMED_WEAR: list(self.case.assumed_wear()),
                 "time_reached": float(run.solution.t_end),
                 "failure": failure,
                 "warnings": [*said.warnings, *part.warnings, *more.warnings],

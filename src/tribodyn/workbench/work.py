@@ -84,7 +84,7 @@ def shown(dataset: xr.Dataset) -> dict[str, Any]:
     summary = summarise(dataset)
     return {
         "results": {name: summary[name] for name in known(summary, str(summary["kind"]))},
-        **{name: summary[name] for name in ("failure", "doubtful", "warnings", "notes")},
+        **{name: summary[name] for name in ("failure", "doubtful", "warnings", "notes", "assumed")},
         "time_reached": float(dataset.attrs.get("time_reached", 0.0)),
         "events": _events(dataset),
         "clock": clock(dataset),

@@ -21,7 +21,7 @@ from tribodyn.cases.groups import Contact, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.known import demand_known
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.remarks import of_surfaces
+from tribodyn.cases.remarks import has_wear_rate, of_choice, of_surfaces
 from tribodyn.cases.rough import RoughCase
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
@@ -151,7 +151,21 @@ class MechanismCase(_WithElements):
         """Return remarks on the surfaces of all joints and on tables."""
         of_pairs = (of_surfaces(self, f"{_PAIRS}.{name}.", self._beside(name)) for name in self.pairs)
         own = of_surfaces(self, "", self._beside(None)) + of_tables(self.followed())
-        return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self))
+        chosen = of_choice(self, dict.fromkeys(self._surfaces_of_joints().values()))
+        return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self) + chosen)
+
+    def assumed_wear(self) -> tuple[str, ...]:
+        """Return the joints, as in names of numbers, whose wear rate nobody chose."""
+        return tuple(
+            plain(name)
+            for name, prefix in self._surfaces_of_joints().items()
+            if not has_wear_rate(self, prefix)
+        )
+
+    def _surfaces_of_joints(self) -> dict[str, str]:
+        """Return what keys of the surfaces of each joint with clearance begin with, by its name."""
+        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
+        return {name: "" if keys.pair is None else f"{_PAIRS}.{keys.pair}." for name, keys in real.items()}
 
     def _beside(self, pair: str | None) -> dict[str, list[str]]:
         """Return the friction of joints of a pair, or of none, that differs from that of the pair."""

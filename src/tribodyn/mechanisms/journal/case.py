@@ -15,6 +15,8 @@ from tribodyn.cases.groups import Solver, Tolerances, check_output_interval
 from tribodyn.cases.joint import FormKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import ShaftLoad
+from tribodyn.cases.messages import Remarks
+from tribodyn.cases.remarks import of_choice
 from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.signals import SpeedTable
 
@@ -178,6 +180,10 @@ class JournalCase(BushingCase):
         drives = {} if self.drive.speed is None else {"drive.speed": self.drive.speed}
         follows = dict.fromkeys(loads, "the journal")
         return followed(drives | loads, self.duration, follows=follows)
+
+    def remarks(self) -> Remarks:
+        """Return what is to be said of the two surfaces and of tables."""
+        return super().remarks() + of_choice(self, ("",))
 
     def idle(self) -> tuple[str, ...]:
         """Return the speed where a table takes its place."""

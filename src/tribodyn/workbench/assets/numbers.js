@@ -82,7 +82,8 @@ function numberRow(one) {
   const about = { "aria-pressed": String(chosen.curve === name), "data-number": name, title: meaning };
   const words = resultText(value, digits);
   const range = rangeText(one);
-  const main = element("td", { class: "value" }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));
+  const assumed = pageState.shown.assumed?.includes(name) ? " assumed" : "";
+  const main = element("td", { class: `value${assumed}` }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));
   const change = difference(value, compared()?.results[name]);
   const rest = [["from pinned", change], robust ? ["last runs", range] : ["this run", range && words], ["slope", slopeText(name)]];
   const cells = rest.map(([what, text]) => element("td", { "data-what": what }, text));
