@@ -83,14 +83,14 @@ class Band:
         if not (math.isfinite(lowest) and math.isfinite(highest)):
             return False
         if self.covers is not None:
-            return lowest <= self.covers[0] and self.covers[1] <= highest
+            return bool(lowest <= self.covers[0] and self.covers[1] <= highest)
         if self.must_exceed is not None:
             assert measured is not None
             least = min(abs(lowest - measured), abs(highest - measured))
-            return least > self.must_exceed and (lowest - measured) * (highest - measured) > 0.0
+            return bool(least > self.must_exceed and (lowest - measured) * (highest - measured) > 0.0)
         limits = self.limits(measured)
         assert limits is not None
-        return limits[0] <= lowest and highest <= limits[1]
+        return bool(limits[0] <= lowest and highest <= limits[1])
 
 
 @dataclass(frozen=True)
