@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.optimize import brentq
 from tests.analytic.test_outputs import BAR, CRANK, ROD, closed_form, of, press
 from tests.faults.random_mechanisms import flat_loop
 
@@ -176,6 +177,52 @@ def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
     result = td.simulate(carriage().case().replace({"springs.spring.stiffness": "0 N/mm"}))
     assert "no static equilibrium: body carriage" in result.attrs["failure"]
     assert result.sizes["time"] == 0
+
+
+def lever_on_a_spring(*, real: bool, **keys: object) -> td.Mechanism:
+    """Return a base driven along x, and on it a lever of 0.8 kg on a torsion spring."""
+    drawn = (
+        td.Mechanism(
+            "Lever",
+            gravity="0, -9.81, 0 m/s^2",
+            run={"analysis": "static", "duration": "1 s", "positions": 8},
+        )
+        .body("base", mass="1 kg", centre="0, 0, 0 mm", **BAR)
+        .body("lever", mass="0.8 kg", centre="200, 20, 0 mm", inertia="8e-3, 8e-3, 1e-2 kg m^2")
+        .prismatic("rail", "ground", "base", point="0, 0, 0 mm", axis=[1, 0, 0])
+        .revolute("pivot", "base", "lever", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .torsion_spring("coil", joint="pivot", **keys)
+        .drive("motor", "rail", velocity="0.1 m/s")
+        .output("turn", "lever", quantity="angle", along=[0, 0, 1])
+    )
+    pin = {"radius": "10 mm", "length": "20 mm", "axial": "50 um", "friction_coefficient": "0"}
+    return drawn.clearance("pivot", radial="20 um", **pin) if real else drawn
+
+
+def moment_of_weight(angle: float) -> float:
+    return -0.8 * 9.81 * (0.2 * math.cos(angle) - 0.02 * math.sin(angle))
+
+
+@pytest.mark.parametrize("real", [False, True])
+def test_a_lever_hangs_where_its_spring_balances_its_weight(real: bool) -> None:
+    result = td.simulate(lever_on_a_spring(real=real, stiffness="2 N m/rad"))
+    exact = brentq(lambda a: moment_of_weight(a) - 2.0 * a, -2.0, 1.0)
+    assert math.degrees(exact) == pytest.approx(-38.1419, abs=1e-4)
+    assert of(result, "output_value", "turn") == pytest.approx(exact, abs=1e-8)
+    assert np.max(np.abs(column(result, "drive_force"))) < 1e-5
+    assert "balance to" in result.attrs["notes"]
+
+
+def test_a_cubic_spring_without_stiffness_at_its_start_holds_a_lever() -> None:
+    angles = np.linspace(-3.0, 3.0, 601)
+    torque = {
+        "angles": [f"{a} rad" for a in angles.tolist()],
+        "values": [f"{2.0 * a**3} N m" for a in angles.tolist()],
+    }
+    result = td.simulate(lever_on_a_spring(real=False, torque=torque))
+    exact = brentq(lambda a: moment_of_weight(a) - 2.0 * a**3, -2.0, 1.0)
+    assert result.attrs["failure"] == ""
+    assert of(result, "output_value", "turn") == pytest.approx(exact, abs=1e-6)
 
 
 def test_an_overloaded_joint_has_no_equilibrium() -> None:

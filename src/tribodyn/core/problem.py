@@ -254,6 +254,8 @@ class Solution:
         Cost.
     failure
         ``None``, or the reason why the end was not reached.
+    notes
+        On its accuracy, in words.
     """
 
     t: FloatArray
@@ -264,6 +266,7 @@ class Solution:
     y_end: FloatArray
     statistics: Statistics = field(default_factory=Statistics)
     failure: str | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def complete(self) -> bool:

@@ -165,10 +165,10 @@ def _led(system: System, duration: float, close: Close) -> float | None:
 
 
 def lead(system: System, time: float, close: Close) -> bool:
-    """Lead the bodies from where the system's time is to a later one [s]; return whether joints close."""
-    while system.t < time:
-        begin = system.t
-        end = min(time, begin + system.time_to_move(_TURN))
+    """Lead the bodies from where the system's time is to another one [s]; return whether joints close."""
+    while system.t != time:
+        begin, step = system.t, system.time_to_move(_TURN)
+        end = time if abs(time - begin) <= step else begin + math.copysign(step, time - begin)
         if not _reached(system, begin, end, close):
             return False
     return True

@@ -11,7 +11,6 @@ or, at rest, of the last one or of the one that is about to begin.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Final
 
@@ -29,14 +28,12 @@ from tribodyn.kernels.mechanism.data import (
     N_STATES,
     NONE,
     NOTHING,
-    SPRING,
-    SPRINGS,
     VELOCITY,
 )
 from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanisms.general.assembly import Assembly, memory_of
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.decompositions import row_space, shortest
+from tribodyn.mechanisms.general.decompositions import row_space
 from tribodyn.mechanisms.general.nodes import JointNodes, alike, nodes_of
 from tribodyn.mechanisms.general.problem import mechanism_problem
 from tribodyn.mechanisms.general.shaft_motions import ShaftMotions, forces, of_bodies, products, ways
@@ -48,34 +45,19 @@ _SLIDING: Final = 100.0
 """The same with which a motion that is about to begin is looked at."""
 _ROUNDING: Final = 1.0e-10
 """Acceleration over the one that loads would cause without joints that counts as zero."""
-_MOST_LOOKS: Final = 20
-_MOST_STEPS: Final = 100
-_SETTLED: Final = 1.0e-3
-"""Change of a gap, over the roughness, that counts as zero."""
-_BALANCED: Final = 1.0e-6
-"""Load over the largest one met on the way that counts as zero."""
 _LOST: Final = 3.0
 """Ratio of a shaft's largest motion to the gap of its joint in a search for a support."""
 _TILTED: Final = 30.0
 """The same of a shaft that touches: tilted within a short bore, its end faces are further away."""
 _TOUCHING: Final = 5.0
 """Gap over the roughness at which surfaces touch."""
-_LEAST: Final = 1.0
-"""Stiffness of springs where there is no contact yet [N/m]."""
-_FLOOR: Final = 1.0e-6
-"""The same over the largest stiffness."""
-_STIFFER: Final = 4.0
-_SOFTER: Final = 3.0
-"""Factors by which springs change."""
-_BACK: Final = 0.5
-"""Share of the load along a step that may have turned against it."""
-_NEARER: Final = 4.0
-"""Factor by which bodies that do not come to rest count as near from look to look."""
+_TINY: Final = 1.0e-300
 _ADRIFT: Final = 1.0e-3
 """Load along a freedom that nothing holds, over all loads, that counts as zero."""
-_TINY: Final = 1.0e-300
-_FAR: Final = 0.5
-"""Part of the largest gap of a joint that a step may not pass."""
+_TRIED: Final = 1.0e-6
+"""Step along freedoms, in the same units, by which their stiffness is tried."""
+_TRIED_GAP: Final = 1.0e-3
+"""The same along all other motions, as a change of gaps over the roughness."""
 
 
 class JointLoads:
@@ -89,12 +71,12 @@ class JointLoads:
         Its ideal counterpart at the same place and time.
     speeds
         Given speeds of free coordinates.
-    freedoms
-        Whether loads balance along the freedoms of the mechanism that springs hold, too.
+    over_loads
+        Whether what is left of the loads is compared with all loads, not with the largest one met on the way.
     """
 
     def __init__(
-        self, assembly: Assembly, ideal: System, speeds: Speeds = (), *, freedoms: bool = False
+        self, assembly: Assembly, ideal: System, speeds: Speeds = (), *, over_loads: bool = False
     ) -> None:
         self.n = ideal.n
         self.state = np.zeros(N_STATES * self.n)
@@ -112,13 +94,16 @@ class JointLoads:
         self.roots = np.zeros((couplings.size, 6, 6))
         for contact in self.contacts:
             self.roots[contact.coupling] = contact.root
+        self.others = self.acting[couplings.force[self.acting] != CONTACT]
         self.by_slip = np.flatnonzero(np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE)))
         self.laws = np.flatnonzero(couplings.law)
         self.entries = np.zeros(N_PLACES * self.n + int(self.data.parts.constants.n_entries))
         self.ideal, self.real = ideal, System(assembly.model.without_films, contacts=False)
         self.real.adopt(self.state)
-        self.springs = np.flatnonzero(np.isin(couplings.force, (SPRINGS, SPRING)))
-        self.speeds, self.freedoms, self.largest = speeds, freedoms, 0.0
+        self.units = np.tile(np.repeat([self.real.size, 1.0], 3), self.n)
+        self.speeds, self.over_loads, self.largest = speeds, over_loads, 0.0
+        self.carried, self.turning, self.waits = 0, np.zeros((0, 0)), False
+        self.surveyed = False
         self.ahead: FloatArray | None = None
 
     def look(self) -> None:
@@ -138,11 +123,14 @@ class JointLoads:
         collect(self.ideal.now.bodies, self.state)
         g, self.root, length = self.ideal.scaled()
         self.held = row_space(g, self.ideal.rank())
+        self.velocity = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
+        carried, self.adrift = self.divided(self.held.free)
+        self.slipping = self.velocity
         self.wanted = self.held.solve(self.ideal.entries("gamma") / length)
         # Where real joints hold something, so do the ideal ones.
         allowed = self.held.left_by(self.real.scaled()[0], self.real.rank())
-        self.velocity = self.slipping = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
-        carried, self.adrift = self._divided(self.held.free)
+        self.carried, self.travelled = carried.shape[1], np.zeros(carried.shape[1])
+        self.way, self.surveyed = np.zeros(allowed.shape[1] + self.carried), False
         motions = np.hstack([allowed, carried])
         self.motions = dense.product(self.root, motions)
         self.asked = dense.product(motions.T, self.held.part_of(self.wanted))
@@ -153,6 +141,60 @@ class JointLoads:
             # Once, from the middle: traction itself must not decide where it points.
             self.ahead = self._ahead() if self.ahead is None else self.ahead
             self.slipping = self.ahead
+        if self.over_loads:
+            self.largest = self.size_of_loads()
+        self.missing = self._missing()
+
+    def _missing(self) -> FloatArray:
+        """Return the stiffness along freedoms that forces do not show while motions stay as they are."""
+        m = self.motions.shape[1]
+        self.missing = found = np.zeros((m, m))
+        for k in range(m - self.carried, m):
+            found[:, k] -= self._shown(k)
+        if self.carried:
+            self._evaluated()
+            rows = slice(m - self.carried, m)
+            found[rows, rows] += self.stiffness()[0][rows, rows]
+            found[: m - self.carried] = 0.0
+        return found
+
+    def survey(self) -> None:
+        """Find what forces do not show of the stiffness along all motions, by looking from either side."""
+        self.look()
+        kept, motions, basis = self.state.copy(), self.motions, np.linalg.solve(self.root, self.motions)
+        found = np.zeros(self.missing.shape)
+        for k in range(len(found)):
+            found[:, k] -= self._shown(k)
+            step = self._small_step(k)
+            for side in (1.0, -1.0):
+                self.motions = motions
+                JointLoads.move(self, side * step)
+                self.look()
+                seen = np.linalg.solve(self.root, self.motions) @ self.residual()
+                found[:, k] -= side * (basis.T @ seen) / (2.0 * step[k])
+                self.state[:] = kept
+            self.motions = motions
+        self.look()
+        self.missing = found
+        self.surveyed = True
+
+    def _small_step(self, k: int) -> FloatArray:
+        """Return a step along one motion by which stiffness is tried."""
+        step = np.zeros(self.motions.shape[1])
+        step[k] = 1.0
+        far = self.turned(step) / _TRIED
+        return step / max(far, self.change(step)[0] / _TRIED_GAP, _TINY)
+
+    def _shown(self, k: int) -> FloatArray:
+        """Return the stiffness along one motion, motions as they are, shape (m,)."""
+        step, kept, ends = self._small_step(k), self.state.copy(), []
+        self.missing = np.zeros((step.size, step.size))
+        for side in (1.0, -1.0):
+            JointLoads.move(self, side * step)
+            ends.append(self.residual())
+            self.state[:] = kept
+        self.way[:] = self.travelled[:] = 0.0
+        return np.asarray((ends[1] - ends[0]) / (2.0 * step[k]))
 
     def close(self) -> None:
         """Close the ideal joints of the mechanism."""
@@ -162,16 +204,22 @@ class JointLoads:
         """Fill the velocities of the ideal counterpart."""
         start(self.ideal, self.speeds)
 
-    def _divided(self, free: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the freedoms that springs hold, of those that joints and drives leave, and all others."""
-        if not (self.freedoms and free.size):
-            return free[:, :0], free
-        self._evaluate(self.velocity)
-        moving = dense.product(self.root, free)
-        held_by = ShaftMotions(moving, self.ends[:, self.springs])
-        values, vectors = dense.eigh(self._held_by(moving, held_by, self.springs)[0])
-        held = values > _FLOOR * np.max(values, initial=_TINY)
-        return dense.product(free, vectors[:, held]), dense.product(free, vectors[:, ~held])
+    def divided(self, free: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the freedoms whose loads balance, and all others, of those of the ideal counterpart."""
+        return free[:, :0], free
+
+    def unbalance(self) -> float:
+        """Return the loads that do not balance where bodies were looked at last, over all loads."""
+        return float(dense.norm(self.residual())) / (self.largest or 1.0)
+
+    def size_of_loads(self) -> float:
+        """Return the size of all loads but contact, inertia forces included, over the roots of masses."""
+        rest = self._evaluate(self.velocity) - self._pushes("wrench", self.acting)
+        total = np.abs(rest - self._pushes("constraint", self.laws))
+        for wrench, couplings in (("wrench", self.others), ("constraint", self.laws)):
+            pushes = products(self.couplings[wrench][couplings, None], self.couplings["H"][couplings])
+            total += forces(np.abs(pushes), self.ends[:, couplings], self.n)
+        return float(dense.norm(dense.product(self.root, total))) + float(dense.norm(self.wanted))
 
     def unbalanced(self) -> int | None:
         """Return the number of a body that loads push along a freedom which nothing holds; None without one.
@@ -242,14 +290,23 @@ class JointLoads:
     def residual(self) -> FloatArray:
         """Return the loads that do not balance, over the motions that clearances allow, shape (m,)."""
         found = np.asarray(dense.product(self.motions.T, self._evaluated()) - self.asked)
-        self.largest = max(self.largest, float(dense.norm(found)))
+        if self.carried or self.surveyed:
+            # What the motions themselves change on the way.
+            found -= dense.product(self.missing, self.way)
+        if not self.over_loads:
+            self.largest = max(self.largest, float(dense.norm(found)))
         return found
 
     def stiffness(self) -> tuple[FloatArray, FloatArray]:
         """Return the stiffness of what was evaluated last, and of springs under all nodes, (m, m) each."""
-        return self._held_by(self.motions, self.moving, self.acting)
+        found, even = self.held_by(self.motions, self.moving, self.acting)
+        if self.surveyed:
+            found += self.missing
+        elif self.carried:
+            found[-self.carried :, -self.carried :] += self.turning
+        return found, even
 
-    def _held_by(
+    def held_by(
         self, motions: FloatArray, moving: ShaftMotions, couplings: IntArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return the stiffness of some couplings and of all force laws over motions, and of such springs.
@@ -301,13 +358,26 @@ class JointLoads:
             over_gap = max(over_gap, float(np.max(np.max(change, axis=0) / drawn)))
         return over_roughness, over_gap
 
+    def turned(self, step: FloatArray) -> float:
+        """Return how far a step (m,) moves bodies along freedoms, turns [rad] and lengths over the size."""
+        if self.carried == 0:
+            return 0.0
+        moved = dense.product(self.motions[:, -self.carried :], step[-self.carried :])
+        return float(np.max(np.abs(moved) / self.units))
+
     def move(self, step: FloatArray) -> None:
         """Displace the bodies by a step (m,)."""
+        self.way += step
+        self.travelled += step[step.size - self.carried :]
         change, bodies = dense.product(self.motions, step), self.memory.now.bodies
         place(self.state, bodies)
         for b in range(self.n):
             move(bodies[b], change[6 * b : 6 * b + 6], np.zeros(4))
         collect(bodies, self.state)
+
+    def undo(self, step: FloatArray) -> None:
+        """Take back the last step (m,)."""
+        self.move(-step)
 
     def overlapping(self) -> int | None:
         """Return the first joint whose surfaces overlap further than their contact law reaches."""
@@ -325,57 +395,3 @@ class JointLoads:
         gaps = contact.gaps(self._place(contact))
         touches = bool(np.any(gaps < _TOUCHING * contact.roughness))
         return not np.max(np.abs(gaps)) <= (_TILTED if touches else _LOST) * np.max(contact.drawn)
-
-
-def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:
-    """Move the bodies to where their loads balance; return the state there, or None.
-
-    Parameters
-    ----------
-    loads
-        With the bodies where the search begins.
-    change
-        Change of gaps, over the roughness, that counts as zero.
-    near
-        Change of gaps, over the roughness, after which the possible motions are not looked for again; it
-        grows from look to look.
-    """
-    soft = 0.0
-    for _ in range(_MOST_LOOKS):
-        loads.look()
-        steps, moved, soft = _newton(loads, soft, change) if loads.motions.size else (0, 0.0, soft)
-        if steps == 0 or moved < near:
-            return loads.state if loads.overlapping() is None else None
-        if loads.lost() is not None:
-            return None
-        # Where a force passes through zero its shaft lies anywhere, and no look is the last.
-        near *= _NEARER
-    return None
-
-
-def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, float]:
-    """Make steps until one changes nothing; return their number and changes, and the stiffness of springs.
-
-    Springs under all nodes, of stiffness ``soft`` [N/m] in each joint, hold a step where contact does not.
-    They are stiffer after a step that overshoots the place where the loads along it balance, else softer.
-    """
-    residual, moved = loads.residual(), 0.0
-    for steps in range(_MOST_STEPS):
-        stiffness, even = loads.stiffness()
-        soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
-        for _ in range(_MOST_STEPS):
-            step = shortest(stiffness + soft * even, residual)
-            change, way = loads.change(step)
-            if way < _FAR:
-                loads.move(step)
-                after = loads.residual()
-                if dense.product(after, step) >= -_BACK * dense.product(residual, step):
-                    break
-                loads.move(-step)
-            soft *= _STIFFER
-        else:
-            return _MOST_STEPS, math.inf, soft
-        residual, soft, moved = after, soft / _SOFTER, moved + change
-        if change < least and dense.norm(after) <= _BALANCED * loads.largest:
-            return steps, moved, soft
-    return _MOST_STEPS, math.inf, soft

@@ -98,6 +98,7 @@ class Linearised:
         system.at(t)
         g, root, _ = system.scaled()
         allowed = null_space(g, self._rank) if system.rows else np.eye(6 * system.n)
+        memory.now.couplings["angle_mark"] = system.now.couplings["angle_mark"]
         self._functions.enter(t, y, self._data, memory)
         memory.contact.entry_velocity[:] = _ELASTIC
         memory.now.couplings["law"]["entry_rate"] = _ELASTIC

@@ -10,7 +10,8 @@ from __future__ import annotations
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.equilibrium import JointLoads, settled
+from tribodyn.mechanisms.general.equilibrium import JointLoads
+from tribodyn.mechanisms.general.settling import settled
 from tribodyn.mechanisms.general.speeds import speeds_of
 
 

@@ -17,16 +17,19 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanisms.checks import TOO_CLOSE
-from tribodyn.mechanisms.general.assembly import Assembly
+from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.closing import System
-from tribodyn.mechanisms.general.cycle import closes, placed, where_drives_are
-from tribodyn.mechanisms.general.equilibrium import JointLoads, settled
+from tribodyn.mechanisms.general.cycle import closes, lead, placed, where_drives_are
 from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanisms.general.kinematics import require_motion
+from tribodyn.mechanisms.general.led_loads import LedLoads
+from tribodyn.mechanisms.general.linearised import LinearEquations, Linearised
 from tribodyn.mechanisms.general.outputs import rotations
-from tribodyn.mechanisms.general.positions import DrivePath, held, undamped, walked
+from tribodyn.mechanisms.general.positions import DrivePath, undamped, walked
+from tribodyn.mechanisms.general.settling import settled
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that counts as zero."""
@@ -79,68 +82,76 @@ def find_equilibria(
         As for :func:`tribodyn.mechanisms.general.positions.walked`.
     """
     path, still = DrivePath(times, turn), replace(problem, data=undamped(problem.data))
-    return walked(still, path, Equilibria(assembly, path), picture_times, progress)
-
-
-class LedLoads(JointLoads):
-    """The loads on bodies whose drives are led along, by compiled solutions."""
-
-    def __init__(self, assembly: Assembly, ideal_rank: int) -> None:
-        ideal = placed(System(assembly.model.counterpart), assembly)
-        super().__init__(assembly, ideal, freedoms=True)
-        self.data = undamped(self.data)
-        self._direction = 1.0
-        for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):
-            system.set_rank(rank)
-            system.known_rank = rank
-
-    def at(self, t: float, state: FloatArray, direction: float) -> None:
-        """Put the bodies elsewhere, with the drives at another time [s], running forward (1) or back (−1)."""
-        self.ideal.t = self.real.t = t
-        self.state[:], self._direction, self.largest = state, direction, 0.0
-
-    def hold(self, times: FloatArray) -> None:
-        """Hold drives and loads at some times [s] as they are then."""
-        self.data = held(self.data, times)
-        for system in (self.ideal, self.real):
-            system.data = held(system.data, times)
-
-    def close(self) -> None:
-        """Close the ideal joints of the mechanism."""
-        closes(self.real)
-
-    def begin_to_move(self) -> None:
-        """Fill the velocities of the ideal counterpart."""
-        self.ideal.move_with_drives(self._direction)
+    equilibria = Equilibria(assembly, path)
+    found = walked(still, path, equilibria, picture_times, progress)
+    words = (
+        f"forces on all bodies balance to {equilibria.unbalance:.1g} of the loads or better at every position"
+    )
+    return replace(found, notes=(words,) if found.t.size else ())
 
 
 class Equilibria:
-    """Finds the equilibrium at one position after the other, each from the one before."""
+    """Finds the equilibrium at one position after the other, each from the one before.
+
+    Attributes
+    ----------
+    unbalance
+        Largest load so far that does not balance, over all loads.
+    """
 
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
         times, self._where = np.unique(path.of_drives, return_inverse=True)
-        mechanism = IdealMechanism(assembly)
-        found = mechanism.follow(times)
+        found = IdealMechanism(assembly).follow(times)
         self._path, self._bodies, self._joints = path, assembly.model.bodies, assembly.model.joints
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
-        self._loads = LedLoads(
-            assembly, placed(System(assembly.model.counterpart), assembly).independence()[0]
-        )
+        rank = placed(System(assembly.model.counterpart), assembly).independence()[0]
+        self._loads, self.unbalance = LedLoads(assembly, rank), 0.0
+        self.centred: Linearised | None = None
+        if rank < 6 * len(assembly.model.bodies):
+            self.centred = Linearised(assemble(assembly.model.counterpart), times)
+            self._leader = IdealMechanism(assembly)
+        self._middle = self._ideal[:1]
+        self._equations: LinearEquations | None = None
+        self._marks: FloatArray | None = None
 
     def __call__(self, number: int) -> FloatArray:
         """Return the equilibrium at a position, see :class:`~.positions.States`."""
-        k, t = self._require_reached(number), float(self._path.of_drives[number])
-        centred, direction = self._ideal[k], float(self._path.forward[number])
-        starts = [*(self._displaced(number, ways) for ways in self._expected()), centred]
+        t, direction = float(self._path.of_drives[number]), float(self._path.forward[number])
+        self._middle = self._in_the_middle(number)
+        starts = [*(self._displaced(ways) for ways in self._expected()), self._middle]
         for start in starts:
-            self._loads.at(t, start.ravel(), direction)
+            self._loads.at(t, start.ravel(), direction, self._equations, self._marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
                 self._require_balance(number)
-                self._remember(number)
+                self._remember()
+                self.unbalance = max(self.unbalance, self._loads.unbalance())
                 return self._loads.state
         raise self._failure(number, f"no static equilibrium was found: {self._why_not()}")
+
+    def _in_the_middle(self, number: int) -> FloatArray:
+        """Return the state of the ideal counterpart, freedoms where forces balance, shape (n_bodies, 13)."""
+        found: FloatArray = self._ideal[self._require_reached(number)]
+        if self.centred is None:
+            return found
+        t, system = float(self._path.of_drives[number]), self._leader.system
+        state = np.zeros(found.size)
+        if number == 0 or not lead(system, t, lambda: closes(system)):
+            self._leader.put(t, found.ravel())
+        collect(system.now.bodies, state)
+        state.reshape(found.shape)[:, VELOCITY:] = 0.0
+        self.centred.system.take_positions(system)
+        state = self._at_rest(number, self.centred, state)
+        self._equations = self.centred.at(t, state)
+        system.take_positions(self.centred.system)
+        self._marks = self.centred.system.now.couplings.angle_mark.copy()
+        return np.asarray(state.reshape(found.shape))
+
+    def _at_rest(self, number: int, mechanism: Linearised, state: FloatArray) -> FloatArray:
+        """Return the state at rest near by in which all forces balance; the same where there is none."""
+        found = mechanism.balanced(float(self._path.of_drives[number]), state)
+        return state if found is None else found
 
     def _why_not(self) -> str:
         """Return why the last search ended without an equilibrium, in words."""
@@ -170,19 +181,19 @@ class Equilibria:
             return self._ways
         return [2.0 * self._ways[-1] - self._ways[-2], self._ways[-1]]
 
-    def _displaced(self, number: int, ways: FloatArray) -> FloatArray:
+    def _displaced(self, ways: FloatArray) -> FloatArray:
         """Return the ideal state, displaced, shape (n_bodies, 13)."""
         from scipy.spatial.transform import Rotation
 
-        found = self._ideal[self._where[number]].copy()
+        found = self._middle.copy()
         found[:, :ORIENTATION] += ways[:, :3]
         turned = Rotation.from_rotvec(ways[:, 3:]) * rotations(found[:, ORIENTATION:VELOCITY])
         found[:, ORIENTATION:VELOCITY] = np.roll(turned.as_quat(), 1, axis=1)
         return np.asarray(found)
 
-    def _remember(self, number: int) -> None:
+    def _remember(self) -> None:
         """Keep the displacements from the ideal state, shape (n_bodies, 6), with those before."""
-        real, ideal = self._loads.state.reshape(-1, N_STATES), self._ideal[self._where[number]]
+        real, ideal = self._loads.state.reshape(-1, N_STATES), self._middle
         after, before = (rotations(state[:, ORIENTATION:VELOCITY]) for state in (real, ideal))
         ways = real[:, :ORIENTATION] - ideal[:, :ORIENTATION]
         self._ways = [*self._ways[-1:], np.hstack([ways, (after * before.inv()).as_rotvec()])]

@@ -323,6 +323,7 @@ class MechanismSystem:
             ),
             notes=[
                 *NOTES[self._analysis],
+                *run.solution.notes,
                 *self.assembly.notes,
                 *vibrations.notes,
                 *note(self.case),

@@ -20,7 +20,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
-from tribodyn.mechanisms.general.assembly import Assembly, assemble
+from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.case import MechanismCase
 from tribodyn.mechanisms.general.linearised import LinearEquations, Linearised
 from tribodyn.mechanisms.general.outputs import rotations
@@ -101,28 +101,21 @@ class _Resting(Equilibria):
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
         super().__init__(assembly, path)
         self._loads.hold(path.times)
-        self._real = Linearised(assembly, path.times)
-        real = bool(assembly.model.clearances)
-        self._centred = Linearised(assemble(assembly.model.counterpart), path.times) if real else self._real
+        self._real = Linearised(assembly, path.times) if assembly.model.clearances else None
 
     def __call__(self, number: int) -> FloatArray:
         """Return the state at a time, see :class:`~.positions.States`."""
-        self._require_reached(number)
-        centred = self._ideal[number]
-        centred[:, VELOCITY:] = 0.0
-        self._ideal[number] = self._balanced(self._centred, number, centred.ravel()).reshape(centred.shape)
-        if self._centred is self._real:
-            return np.asarray(self._ideal[number].ravel())
-        return self._balanced(self._real, number, super().__call__(number))
+        if self._real is None:
+            return np.asarray(self._in_the_middle(number).ravel())
+        return self._at_rest(number, self._real, super().__call__(number))
 
     def _require_balance(self, number: int) -> None:
         """Leave it to the search for rest, in which all freedoms take part."""
 
-    def _balanced(self, mechanism: Linearised, number: int, state: FloatArray) -> FloatArray:
-        t = float(self._path.times[number])
-        found = mechanism.balanced(t, state)
+    def _at_rest(self, number: int, mechanism: Linearised, state: FloatArray) -> FloatArray:
+        found = mechanism.balanced(float(self._path.times[number]), state)
         if found is None:
-            self._loads.ideal.at(t)
+            self._loads.ideal.at(float(self._path.times[number]))
             raise self._failure(number, "no position at rest was found in which all forces balance")
         return found
 
