@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 import shlex
 import signal
 import subprocess
@@ -16,6 +17,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, StorageState, WebSocketRoute
 from tests.unit.workbench.host import TRIBODYN
 
+from tribodyn.cases.units import to_si
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise
 
@@ -351,6 +353,82 @@ def test_a_slider_of_a_parameter_moves_the_mechanism(at: Opened, tmp_path: Path)
         length = float(requested[key].removesuffix(" mm"))
         assert length != 50.0
         person.wait_for(f"Math.abs({reach.replace('plot.plotted', STAGE)} - {length}) < 1e-3")
+        person.page.close()
+
+
+SOLID = """\
+shape = "rod"
+start = "0, 0, 0 mm"
+end = ["length", "0 mm", "0 mm"]
+radius = "5 mm"
+density = "7850 kg/m^3"
+"""
+MASSIVE = """\
+mass = "weight"
+centre = ["length / 2", "0 mm", "0 mm"]
+inertia = "1e-4, 1e-3, 1e-3 kg m^2"
+"""
+DEPENDENT = CRANK.replace("[bodies", 'parameters.weight = "1 kg"\n[bodies', 1).replace(SOLID, MASSIVE)
+"""A crank whose mass follows a parameter."""
+WEIGHT, MASS, LENGTH = "parameters.weight.value", "bodies.crank.mass", "parameters.length.value"
+BOXES = """() => Object.fromEntries([...document.querySelectorAll(".control")].map((box) => [
+  box.dataset.key,
+  [
+    box.querySelector(".entry").value,
+    box.querySelector(".fault").hidden,
+    pageState.controls.get(box.dataset.key).unit,
+  ],
+]))"""
+EDITS = (
+    (WEIGHT, "2 kg"),
+    (WEIGHT, "-1 kg"),
+    (LENGTH, "60 mm"),
+    (WEIGHT, "nonsense"),
+    (WEIGHT, "3 kg"),
+    (LENGTH, "2 kg"),
+    (WEIGHT, "0 kg"),
+    (LENGTH, "45 mm"),
+)
+"""Values that are typed; some of them are refused."""
+
+
+def _boxes_are_what_was_run(person: Person, file: Path) -> None:
+    """Compare every box with the case that the page says was run; a refused text alone may differ."""
+    shown = person.shown()
+    case = load_case(file).replace(shown["values"])
+    refused = person.page.evaluate(
+        "[...document.querySelectorAll('.control[data-refused]')].map((box) => box.dataset.key)"
+    )
+    boxes = person.page.evaluate(BOXES)
+    said = [key for key, (_, sound, _) in boxes.items() if not sound]
+    assert not refused or said or person.page.locator("#error").is_visible()
+    for key, (text, _, unit) in boxes.items():
+        if key not in refused and unit and isinstance(value := case.at(key), float):
+            assert to_si(text, unit) == pytest.approx(value, rel=1e-9), key
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_box_shows_what_was_run_after_random_edits(at: Opened, tmp_path: Path, seed: int) -> None:
+    file, chance = tmp_path / "crank.toml", random.Random(seed)
+    file.write_text(DEPENDENT)
+    with serving([str(file)]) as server:
+        person = at(server=server)
+        person.wait_until_shown({})
+        person.page.locator("#all-keys").click()
+        steps = [*EDITS, *(chance.choice([*EDITS, "u", "u", "r"]) for _ in range(12)), (WEIGHT, "4 kg")]
+        for step in steps:
+            if isinstance(step, str):
+                person.page.evaluate("document.activeElement.blur()")
+                person.press(step)
+            else:
+                person.type_into(*step)
+            person.page.wait_for_timeout(50)
+            person.wait_for("!requests.awaited")
+            _boxes_are_what_was_run(person, file)
+        # Once a value is run nothing refused is left, neither texts nor what was said of them.
+        boxes = person.page.evaluate(BOXES)
+        assert [key for key, (_, sound, _) in boxes.items() if not sound] == []
+        assert boxes[MASS][0] == "4 kg"
         person.page.close()
 
 

@@ -166,7 +166,7 @@ class Variant:
 
 
 def _texts(case: Case) -> dict[str, str]:
-    return {path: text(key, case.at(path)) for path, key in keys_in(case).items()}
+    return {path: text(key, case.at(path)) for path, key in with_components(keys_in(case)).items()}
 
 
 _SIDES: Final = (1, -1)

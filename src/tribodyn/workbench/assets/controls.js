@@ -99,6 +99,8 @@ function entryOf(control, id) {
   const about = { id, class: "entry", type: "text", spellcheck: "false", autocomplete: "off" };
   const entry = element("input", { ...about, placeholder: control.example, "aria-describedby": `${id}-fault` });
   entry.addEventListener("change", () => typedIn(key, entry.value.trim()));
+  // A run may have arrived while the box had the focus.
+  entry.addEventListener("blur", fillControls);
   entry.addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;
     entry.value = shownText(key);
@@ -160,9 +162,8 @@ function fillControls() {
     box.classList.toggle("changed", changed);
     box.querySelector(".back").disabled = !changed;
     const entry = box.querySelector(".entry");
-    const wrong = entry.getAttribute("aria-invalid") === "true";
-    if (entry !== document.activeElement && !wrong) entry.value = shownText(key);
-    else if (entry.tagName === "SELECT") entry.value = shownText(key);
+    const kept = entry === document.activeElement || "refused" in box.dataset;
+    if (!kept || entry.tagName === "SELECT") entry.value = shownText(key);
     const slider = box.querySelector("input[type=range]");
     if (slider) fillSlider(slider, control, pageState.text(key));
   }
@@ -183,10 +184,12 @@ function fillSlider(slider, control, text) {
   slider.setAttribute("aria-valuetext", shownText(control.key));
 }
 
-/** Say beside the box of a key what is wrong with it; return whether there is such a box. */
-function complain(key, text) {
+/** Say beside the box of a key what a request found wrong with it; return whether there is such a box. */
+function complain(key, text, number = requests.number) {
   const box = key && controlAt(key);
   if (!box) return false;
+  box.dataset.faultOf = number;
+  delete box.dataset.refused;
   const fault = box.querySelector(".fault");
   write(fault, text);
   fault.hidden = !text;
@@ -194,8 +197,17 @@ function complain(key, text) {
   return true;
 }
 
-/** Leave in the box of a key what was typed there. */
+/** Leave in the box of a key what was typed there, until something is run. */
 function keepText(key) {
+  const box = controlAt(key);
+  if (box) box.dataset.refused = "";
   fillControls();
-  controlAt(key)?.querySelector(".entry").focus();
+  box?.querySelector(".entry").focus();
+}
+
+/** Take back what earlier requests found wrong, and texts that they refused: every box shows what was run. */
+function forgive(number) {
+  for (const box of document.querySelectorAll(".control[data-fault-of]")) {
+    if (Number(box.dataset.faultOf) <= number) complain(box.dataset.key, "", number);
+  }
 }

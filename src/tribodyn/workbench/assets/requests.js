@@ -52,6 +52,7 @@ const requests = {
     if (server.edit) run.values = { ...run.values, [EDIT]: server.edit };
     if (server.state === "running") Object.assign(server, READY);
     if (run.number === requests.awaited) requests.awaited = 0;
+    forgive(run.number);
     // From here on values are written as the case model writes them: "0.03 mm" as "30 um".
     if (run.number === requests.own && pageState.values === requests.sent) pageState.values = requests.sent = run.values;
     pageState.show(run);
@@ -74,7 +75,7 @@ const requests = {
     if (model.refused(number, faults, message)) return tellState();
     const typed = requests.typed.get(number);
     requests.typed.delete(number);
-    const shown = faults.filter(({ key, message: text }) => complain(key ?? typed?.key, text));
+    const shown = faults.filter(({ key, message: text }) => complain(key ?? typed?.key, text, number));
     if (shown.length < faults.length) showError(message, number);
     if (typed && pageState.values[typed.key] === typed.text) requests.takeBack(typed);
     return tellState();
