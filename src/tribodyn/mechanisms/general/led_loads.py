@@ -14,25 +14,61 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
+from tribodyn.kernels.mechanism.data import MechanismData
 from tribodyn.mechanisms.general.assembly import Assembly
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.cycle import closes, placed
 from tribodyn.mechanisms.general.equilibrium import JointLoads
 from tribodyn.mechanisms.general.linearised import LinearEquations
+from tribodyn.mechanisms.general.model import Model
 from tribodyn.mechanisms.general.positions import held, undamped
 from tribodyn.mechanisms.general.shaft_motions import ShaftMotions
 
+SLIP: Final = "slip_velocity"
+"""Name of the parameter of laws at which their friction is developed."""
 _FLAT: Final = 1.0e-9
 """Stiffness over the largest one that counts as zero."""
 
 
-class LedLoads(JointLoads):
-    """The loads on bodies whose drives are led along, by compiled solutions."""
+def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
+    """Return a mechanism whose friction is developed from a slip velocity on [m/s], in its data.
 
-    def __init__(self, assembly: Assembly, ideal_rank: int) -> None:
+    Positions along drives have no time scale: friction has its direction from the motion, and its size not.
+    """
+    surfaces, couplings = data.contact.surfaces.copy(), data.parts.couplings.copy()
+    for records in (surfaces, couplings):
+        records["slip_velocity"] = np.minimum(records["slip_velocity"], slip)
+    number = model.first_leg
+    for element in model.elements:
+        for equation in element.equations:
+            names = [] if equation.law is None else list(equation.law.parameters)
+            if SLIP in names:
+                values = couplings["parameters"]["values"][
+                    number : number + len(equation.legs), names.index(SLIP)
+                ]
+                np.minimum(values, slip, out=values)
+            number += len(equation.legs)
+    parts = data.parts._replace(couplings=couplings)
+    return data._replace(contact=data.contact._replace(surfaces=surfaces), parts=parts)
+
+
+class LedLoads(JointLoads):
+    """The loads on bodies whose drives are led along, by compiled solutions.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism.
+    ideal_rank
+        Number of independent constraints of its ideal counterpart.
+    slip
+        Slip velocity at which friction is developed [m/s], where that of a joint is not less.
+    """
+
+    def __init__(self, assembly: Assembly, ideal_rank: int, slip: float) -> None:
         ideal = placed(System(assembly.model.counterpart), assembly)
         super().__init__(assembly, ideal, over_loads=True)
-        self.data = undamped(self.data)
+        self.data = developed(undamped(self.data), assembly.model, slip)
         self._direction = 1.0
         self._centred: LinearEquations | None = None
         for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):

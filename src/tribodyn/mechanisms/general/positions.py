@@ -26,6 +26,8 @@ from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
 from tribodyn.mechanisms.signals import backward, constant
 
 BROKEN: Final = "a joint has come apart"
+_SAME: Final = 1.0e-12
+"""Difference of times over the later one that is rounding."""
 _NEVER_ENTERED: Final = 1.0e30
 """Entry velocity against which any speed of approach vanishes [m/s]."""
 
@@ -48,7 +50,7 @@ class DrivePath:
     @property
     def forward(self) -> FloatArray:
         """Direction of the motion at each time: 1, or −1 after the drives have turned back, shape (n_t,)."""
-        return np.where(self.times > self.turn, -1.0, 1.0)
+        return np.where(self.times > self.turn * (1.0 + _SAME), -1.0, 1.0)
 
     @property
     def of_drives(self) -> FloatArray:

@@ -8,6 +8,7 @@ the ideal motion, so positions that are passed in both directions have two equil
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
@@ -18,14 +19,14 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.bodies import collect
-from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanisms.checks import TOO_CLOSE
 from tribodyn.mechanisms.general.assembly import Assembly, assemble
 from tribodyn.mechanisms.general.closing import System
 from tribodyn.mechanisms.general.cycle import closes, lead, placed, where_drives_are
 from tribodyn.mechanisms.general.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanisms.general.kinematics import require_motion
-from tribodyn.mechanisms.general.led_loads import LedLoads
+from tribodyn.mechanisms.general.led_loads import LedLoads, developed
 from tribodyn.mechanisms.general.linearised import LinearEquations, Linearised
 from tribodyn.mechanisms.general.outputs import rotations
 from tribodyn.mechanisms.general.positions import DrivePath, undamped, walked
@@ -33,6 +34,8 @@ from tribodyn.mechanisms.general.settling import settled
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that counts as zero."""
+_CREEP: Final = 1.0e-7
+"""Slip velocity at which friction is developed, over the fastest speed of a body."""
 _NEAR: Final = 0.1
 """Change of gaps over the roughness that turns the directions of possible motions by less than rounding."""
 
@@ -81,8 +84,10 @@ def find_equilibria(
     times, picture_times, progress
         As for :func:`tribodyn.mechanisms.general.positions.walked`.
     """
-    path, still = DrivePath(times, turn), replace(problem, data=undamped(problem.data))
+    path = DrivePath(times, turn)
     equilibria = Equilibria(assembly, path)
+    data = developed(undamped(problem.data), assembly.model, equilibria.slip)
+    still = replace(problem, data=data)
     found = walked(still, path, equilibria, picture_times, progress)
     words = (
         f"forces on all bodies balance to {equilibria.unbalance:.1g} of the loads or better at every position"
@@ -95,6 +100,8 @@ class Equilibria:
 
     Attributes
     ----------
+    slip
+        Slip velocity at which friction is developed [m/s].
     unbalance
         Largest load so far that does not balance, over all loads.
     """
@@ -106,8 +113,9 @@ class Equilibria:
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
-        rank = placed(System(assembly.model.counterpart), assembly).independence()[0]
-        self._loads, self.unbalance = LedLoads(assembly, rank), 0.0
+        counterpart = placed(System(assembly.model.counterpart), assembly)
+        rank, self.slip = counterpart.independence()[0], _CREEP * _fastest(self._ideal, counterpart.size)
+        self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
         self.centred: Linearised | None = None
         if rank < 6 * len(assembly.model.bodies):
             self.centred = Linearised(assemble(assembly.model.counterpart), times)
@@ -212,3 +220,12 @@ class Equilibria:
         return IntegrationFailure(
             float(self._path.times[number]), f"with {where}, {words}" if where else words
         )
+
+
+def _fastest(states: FloatArray, size: float) -> float:
+    """Return the largest speed of a body at some states, turns times a size [m/s]; infinite at rest."""
+    velocity, spin = states[..., VELOCITY:TURNING], states[..., TURNING:]
+    fastest = max(
+        float(np.max(np.abs(velocity), initial=0.0)), size * float(np.max(np.abs(spin), initial=0.0))
+    )
+    return fastest or math.inf

@@ -50,6 +50,7 @@ from tribodyn.mechanisms.general.positions import DrivePath
 from tribodyn.mechanisms.general.problem import least_energy, mechanism_problem, stored_energy, template
 from tribodyn.mechanisms.general.reversals import Reversals
 from tribodyn.mechanisms.general.sampling import sampled
+from tribodyn.mechanisms.general.slow_sliding import of_slow_sliding
 from tribodyn.mechanisms.general.start import initial_state
 from tribodyn.mechanisms.general.surfaces import material_of
 from tribodyn.mechanisms.general.variables import (
@@ -324,6 +325,11 @@ class MechanismSystem:
             notes=[
                 *NOTES[self._analysis],
                 *run.solution.notes,
+                *(
+                    of_slow_sliding(worn, self.maps.places, run.solution.t, found.couplings)
+                    if self._analysis == "dynamic"
+                    else []
+                ),
                 *self.assembly.notes,
                 *vibrations.notes,
                 *note(self.case),

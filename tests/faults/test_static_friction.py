@@ -1,0 +1,104 @@
+"""Static analysis has friction of the same size at any speed of the drive, and of both signs.
+
+Slider-cranks of random size slide in three joints under stated loads. By virtual work the torque of the crank
+turning forward is above that turning back by twice the sum of friction forces times sliding distances.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.results.reading import column
+
+MANY = 200
+
+
+def missed(seed: int) -> float:
+    """Return the error of the hysteresis of the torque over its size, at most."""
+    draw = np.random.default_rng(seed)
+    crank, rod = float(draw.uniform(20.0, 60.0)), float(draw.uniform(150.0, 300.0))
+    speed = 10.0 ** draw.uniform(-5.0, 1.0)
+    loads, frictions = draw.uniform(5.0, 500.0, 3), draw.uniform(0.02, 0.4, 3)
+    radii = draw.uniform(3.0, 20.0, 2)
+    bar = {"inertia": "1e-4, 1e-4, 1e-4 kg m^2"}
+    run = {"analysis": "static", "directions": "both", "cycles": 1, "positions": 16}
+    drawn = (
+        td.Mechanism("Press", run=run)
+        .body("crank", mass="0.1 kg", centre="0, 0, 0 mm", **bar)
+        .body("rod", mass="0.1 kg", centre=f"{crank + 0.5 * rod}, 0, 0 mm", **bar)
+        .body("slider", mass="0.1 kg", centre=f"{crank + rod}, 0, 0 mm", **bar)
+        .revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .revolute("pin", "crank", "rod", point=f"{crank}, 0, 0 mm", axis=[0, 0, 1])
+        .spherical("wrist", "rod", "slider", point=f"{crank + rod}, 0, 0 mm")
+        .prismatic("guide", "ground", "slider", point=f"{crank + rod}, 0, 0 mm", axis=[1, 0, 0])
+        .drive("motor", "main", speed=f"{speed} rad/s")
+        .load("push", "slider", direction=[-1, 0, 0], force="100 N")
+    )
+    for joint, load, friction, radius in zip(
+        ("main", "pin", "guide"), loads, frictions, (*radii, None), strict=True
+    ):
+        keys = {} if radius is None else {"radius": f"{radius} mm"}
+        drawn.friction(
+            f"rub_{joint}",
+            joint=joint,
+            normal_load=f"{load} N",
+            friction_coefficient=float(friction),
+            stribeck_velocity="1 m/s",
+            **keys,
+        )
+    result = td.simulate(drawn)
+    assert result.attrs["failure"] == ""
+    torque = column(result, "drive_moment")[:, 0]
+    angle = speed * column(result, "time")[: torque.size // 2 + 1]
+    lean = np.arcsin(crank / rod * np.sin(angle))
+    leaning = crank * np.cos(angle) / (rod * np.cos(lean))
+    sliding = crank * np.sin(angle) + rod * np.sin(lean) * leaning
+    lost = frictions * loads
+    expected = lost[0] * radii[0] + lost[1] * radii[1] * np.abs(1.0 + leaning) + lost[2] * np.abs(sliding)
+    found = torque[: angle.size] - torque[::-1][: angle.size]
+    clear = (
+        np.arange(angle.size) % 8 != 0
+    )  # at the dead centres of the slider, and where the drive turns back
+    return float(np.max(np.abs(found - 2e-3 * expected)[clear]) / np.max(2e-3 * expected))
+
+
+@pytest.mark.parametrize(
+    "seeds",
+    [
+        pytest.param(range(0, MANY, 20), id="few"),
+        pytest.param(range(MANY), id="all", marks=pytest.mark.long),
+    ],
+)
+def test_hysteresis_of_the_torque_is_that_of_virtual_work_at_any_speed(seeds: range) -> None:
+    found = {seed: missed(seed) for seed in seeds}
+    assert max(found.values()) < 1e-5, found
+
+
+def test_the_speed_of_the_drive_has_no_part_in_friction_of_clearances() -> None:
+    found = []
+    for speed in ("1 rad/s", "1e-3 rad/s"):
+        drawn = td.load_case("four-bar", {"run.analysis": "static", "run.directions": "both"})
+        real = [name for name, joint in drawn.joints.items() if joint.clearance is not None]
+        changes = {f"joints.{name}.clearance.friction_coefficient": "0.2" for name in real}
+        drive = next(iter(drawn.drives))
+        result = td.simulate(drawn.replace({**changes, f"drives.{drive}.speed": speed, "run.positions": "9"}))
+        torque = np.nan_to_num(column(result, "drive_moment")).sum(axis=1)
+        found.append((torque - torque[::-1])[1 : torque.size // 2])
+    assert np.max(np.abs(found[0])) > 1e-3
+    assert found[1] == pytest.approx(found[0], abs=0.05 * np.max(np.abs(found[0])))
+
+
+@pytest.mark.parametrize(("speed", "noted"), [("0.01 rad/s", True), ("10 rad/s", False)])
+def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, noted: bool) -> None:
+    drawn = (
+        td.Mechanism("Wheel", run={"duration": "0.1 s"})
+        .body("wheel", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        .revolute("axle", "ground", "wheel", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .drive("motor", "axle", speed=speed)
+        .friction("rub", joint="axle", normal_load="10 N", radius="10 mm")
+    )
+    assert (
+        "% of the sliding in joint axle is below five slip velocities" in td.simulate(drawn).attrs["notes"]
+    ) == noted
