@@ -166,7 +166,7 @@ def _unit(value: object, found: Dimensioned) -> str:
         if dimensions_of(unit) == found.dimensions:
             si_unit(unit)
             return unit
-    except (UnitProblem, StopIteration):
+    except UnitProblem:
         pass
     return unit_for(found)
 

@@ -92,7 +92,7 @@ class MissingUnit(UnitProblem):
 
 
 def si_unit(unit: str) -> str:
-    """Return the SI unit that measures the same kind of quantity as `unit`.
+    """Return the SI unit that measures the same kind of quantity as `unit`; without one `unit` itself.
 
     Examples
     --------
@@ -100,12 +100,17 @@ def si_unit(unit: str) -> str:
     'Pa'
     """
     base = _scale(unit).base
-    return next(si for si in _DIMENSIONS if _scale(si).base == base)
+    found = next((si for si in _DIMENSIONS if _scale(si).base == base), unit)
+    if _scale(found).factor != 1:
+        raise UnitProblem(
+            f"{unit!r} is no SI unit, and no other key has such a quantity; give the key an SI unit"
+        )
+    return found
 
 
 def dimension(unit: str) -> str:
-    """Return the name of what `unit` measures, such as ``length``."""
-    return _DIMENSIONS[si_unit(unit)]
+    """Return the name of what `unit` measures, such as ``length``; without one the unit itself."""
+    return _DIMENSIONS.get(si_unit(unit), unit)
 
 
 def unit_of(text: str) -> str:

@@ -156,7 +156,7 @@ def _parser(names: Iterable[str]) -> _Parser:
             name,
             help=command.HELP,
             description=command.HELP,
-            epilog=f"example: {_EXAMPLES[name]}",
+            epilog=f"example: {_EXAMPLES.get(name, f'tribodyn {name} --help')}",
             allow_abbrev=False,
         )
         below.set_defaults(parser=below)

@@ -46,13 +46,15 @@ def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.
     Raises
     ------
     InputError
-        The width is not above zero, or the onset lies outside the table.
+        The width is not above zero, the onset lies outside the table, or the pressure of the law rises with
+        the separation.
     """
     _check_onset(onset, smoothing_width)
     step = (H_LAST - H_FIRST) / INTERVALS
     beyond = _CENTRAL_DIFFERENCE.size // 2
     h_star = H_FIRST + step * np.arange(-beyond, INTERVALS + 1 + beyond, dtype=np.float64)
     pressure, pressure_rise = _values_and_rises(law.stiffness_pressure(h_star))
+    _require_falling(law, h_star[beyond:-beyond], pressure)
     damping, damping_rise = _values_and_rises(law.damping_pressure(h_star))
     share, share_slope = onset_share(h_star[beyond:-beyond], onset, smoothing_width)
     smoothed_rise = share * damping_rise + step * share_slope * damping
@@ -102,6 +104,20 @@ def _check_onset(onset: float, smoothing_width: float) -> None:
         raise InputError(
             f"{allowed}, not {onset:g} and {onset - smoothing_width:g}", key="contact.onset_separation"
         )
+
+
+def _require_falling(law: ContactLaw, h_star: FloatArray, pressure: FloatArray) -> None:
+    """Refuse a law whose pressure rises with the separation, or is no number."""
+    steps = np.diff(pressure)
+    wrong = ~(steps <= TAIL * np.max(np.abs(pressure)))
+    if np.any(wrong):
+        k = int(np.argmax(wrong))
+        words = (
+            f"its pressure rises with the separation, from {pressure[k]:.4g} Pa at h* = {h_star[k]:.3g} to "
+            f"{pressure[k + 1]:.4g} Pa at {h_star[k + 1]:.3g}; surfaces that part carry less: let it fall "
+            f"from h* = {H_FIRST:g} to {H_LAST:g}"
+        )
+        raise InputError(f"contact law {law.name}: {words}", key="contact.law")
 
 
 def _values_and_rises(values: FloatArray) -> tuple[FloatArray, FloatArray]:

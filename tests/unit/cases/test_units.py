@@ -152,3 +152,12 @@ def test_what_is_known_by_heart_is_what_pint_says(base: str, unit: str) -> None:
 def test_the_built_in_case_needs_no_pint() -> None:
     code = "import sys, tribodyn as td; td.load_case('vsv'); assert 'pint' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_unit_that_no_key_has_yet_is_its_own() -> None:
+    # A new element may have keys in N m^2 or rad/s^2.
+    assert si_unit("N m^2") == dimension("N m^2") == "N m^2"
+    assert to_si("3 kN m^2", "N m^2") == pytest.approx(3000.0)
+    assert to_si("180 deg/s^2", "rad/s^2") == pytest.approx(math.pi)
+    with pytest.raises(UnitProblem, match="N m\\^2"):
+        to_si("3 N", "N m^2")

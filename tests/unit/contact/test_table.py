@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.contact import RSDC, ContactLaw, KogutEtsion, SurfacePair, tabulate
+from tribodyn.contact import RSDC, ContactLaw, KogutEtsion, SurfacePair, law_of_user, tabulate
 from tribodyn.contact.table import onset_share
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import pressure_and_damping
@@ -131,3 +131,9 @@ def test_impossible_onset_is_refused_by_key(
     with pytest.raises(InputError) as caught:
         tabulate(KogutEtsion(table_1_pair), onset=onset, smoothing_width=width)
     assert caught.value.key == key
+
+
+def test_a_pressure_that_rises_with_the_separation_is_refused(table_1_pair: SurfacePair) -> None:
+    rising = law_of_user(lambda h_star: 1.0e6 * np.exp(0.5 * h_star))
+    with pytest.raises(InputError, match=r"rises with the separation, from 1.353e\+05 Pa at h\* = -4"):
+        tabulate(rising(table_1_pair))

@@ -106,6 +106,20 @@ swing = np.sqrt(9.81 * 0.15 / (7.5e-3 + 0.15**2))
 assert np.allclose(angle, 0.1 / swing * np.sin(swing * result["time"].values), atol=1e-4)
 """
 
+COMMAND = '''
+"""``tribodyn hello``: print a greeting."""
+
+HELP = "print a greeting"
+
+def add_arguments(parser):
+    """Add no arguments."""
+
+def execute(args):
+    """Print it."""
+    print("Hello")
+    return 0
+'''
+
 
 def of_manual(first: str, language: str = "python") -> str:
     """Return the block of code in the manual that begins with these words."""
@@ -165,6 +179,19 @@ def test_a_contact_law_of_the_manual_takes_one_file_and_one_line(tmp_path: Path)
     (package / "exponential.py").write_text(of_manual('"""Exponential'), encoding="utf-8")
     insert(package / "__init__.py", '    "linear:LinearContact",\n', '    "exponential:Exponential",\n')
     run(tmp_path, LAW)
+    tests = ("tests/analytic/test_contact_limits.py", "tests/unit/contact/test_laws.py")
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *tests]
+    done = subprocess.run(command, cwd=PAGE.parent, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_command_takes_one_file_and_one_name(tmp_path: Path) -> None:
+    folder = copy_of_package(tmp_path) / "cli"
+    (folder / "hello.py").write_text(COMMAND, encoding="utf-8")
+    insert(folder / "main.py", '    *("compile", "completion"),\n', '    "hello",\n')
+    run(tmp_path, "from tribodyn.cli.main import main; import sys; sys.exit(main(['hello']))")
+    run(tmp_path, "from tribodyn.cli.main import main; import sys; sys.exit(main(['cases']))")
 
 
 def test_a_chart_of_the_manual_takes_one_file(tmp_path: Path) -> None:
