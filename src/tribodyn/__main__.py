@@ -20,7 +20,10 @@ def main() -> int:
     """Run the command in a process of its own, where signals are heard before all else is imported."""
     hear_signals_to_the_end()
     gc.set_threshold(_FEW_SEARCHES)
+    from tribodyn.cli.console import escape_warnings
     from tribodyn.cli.main import main as command
+
+    escape_warnings()
 
     status = command()
     # Python would search everything again before it ends, for a second where a run was short.

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
@@ -55,6 +54,11 @@ _BARE: Final = re.compile(
 )
 """A line whose value is a quantity without quotes, a number with a decimal comma, or a word."""
 _OPEN: Final = re.compile(r"\s*[A-Za-z0-9_.-]+\s*=\s*\"[^\"]+")
+_TABLE: Final = re.compile(r"\s*\[\s*([A-Za-z0-9_.\"' -]+?)\s*\]\s*(?:#|$)")
+_KEY: Final = re.compile(r"\s*([A-Za-z0-9_.\"' -]+?)\s*=")
+_PLACE: Final = re.compile(r"\(at line ([0-9]+), column [0-9]+\)$")
+_TWICE: Final = ("Cannot overwrite", "Cannot declare", "Cannot mutate")
+"""Beginnings of what the parser says of a key or table that stands twice."""
 
 Kinds = Mapping[str, type[Case]]
 """Case models by what stands under ``case =`` in a file."""
@@ -235,10 +239,90 @@ def _decoded(content: bytes, source: str) -> str:
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise InputError(f"the file is not UTF-8 text (byte {error.start})", source=source) from None
+        words = _other_program(source) or f"the file is not UTF-8 text (byte {error.start})"
+        raise InputError(words, source=source) from None
     if "\0" in text:
-        raise InputError("this is a binary file, not TOML text", source=source)
+        words = _other_program(source) or "this is a binary file, not TOML text"
+        raise InputError(words, source=source)
     return text
+
+
+_PROGRAMS: Final = {
+    "a robot description (URDF)": (".urdf", ".xacro"),
+    "a MuJoCo model (MJCF)": (".mjcf",),
+    "a Gazebo model (SDF)": (".sdf", ".world"),
+    "a CAD file": (
+        ".step",
+        ".stp",
+        ".iges",
+        ".igs",
+        ".x_t",
+        ".sldprt",
+        ".sldasm",
+        ".catpart",
+        ".ipt",
+        ".dxf",
+    ),
+    "a surface mesh": (".stl", ".obj", ".ply"),
+    "a model of Adams": (".adm", ".cmd", ".bin"),
+    "a Simulink model": (".slx", ".mdl"),
+    "a Modelica model": (".mo",),
+    "a functional mock-up unit": (".fmu",),
+    "a Python program": (".py", ".ipynb"),
+    "a Matlab program": (".m", ".mat"),
+    "a table of numbers": (".csv", ".xlsx", ".dat"),
+    "a result of tribodyn or another NetCDF file": (".nc", ".h5"),
+    "a JSON or YAML file": (".json", ".yaml", ".yml"),
+}
+"""Kinds of files of other programs, by the endings of their names."""
+_ROOTS: Final = {
+    "robot": "a robot description (URDF)",
+    "mujoco": "a MuJoCo model (MJCF)",
+    "sdf": "a Gazebo model (SDF)",
+}
+"""Kinds of XML files by their first element."""
+
+
+_LONGEST_PROLOGUE: Final = 2000
+_XML: Final = re.compile(r"\s*<(?>[?!][^>]*>[^<>]*<)*\s*([A-Za-z]\w*)?")
+"""The first element of an XML file, behind declarations and comments."""
+
+
+def _other_program(source: str, text: str = "") -> str:
+    """Return the message on a file of another program; empty where it may be meant as a case file."""
+    ending = os.path.splitext(source)[1].lower()
+    kind = next((kind for kind, endings in _PROGRAMS.items() if ending in endings), "")
+    if not kind and (root := _XML.match(text[:_LONGEST_PROLOGUE])):
+        kind = _ROOTS.get(root[1] or "", "an XML file")
+    words = "tribodyn reads case files in TOML: `tribodyn new` lists templates and writes one to begin with"
+    return f"this is {kind}; {words}" if kind else ""
+
+
+def _reasons(text: str, error: ValueError) -> Iterator[str]:
+    """Yield the reasons why a text is no TOML: of the line where the parser stops, and of further ones.
+
+    Only these lines are looked at: others may look alike and be sound, as in a text of several lines.
+    """
+    lines, reported = text.splitlines(), False
+    for _ in range(MOST_FAULTS):
+        said = str(error)
+        found = _PLACE.search(said)
+        number = min(int(found[1]), len(lines)) if found else 0
+        twice = _defined_twice(lines[:number]) if said.startswith(_TWICE) else ""
+        hint = _hint(lines[number - 1]) if number else ""
+        if twice or hint:
+            yield twice or f"line {number}: {hint}"
+        elif not reported:
+            yield brief(said, 2 * LONGEST)
+        if not hint:
+            return
+        reported, lines[number - 1] = True, ""
+        try:
+            toml.parse("\n".join(lines))
+        except ValueError as further:
+            error = further
+        else:
+            return
 
 
 def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
@@ -251,18 +335,34 @@ def _tables(text: str, source: str) -> dict[str, Any]:
     try:
         return toml.parse(text)
     except ValueError as error:
-        reasons = list(islice(_hints(text), MOST_FAULTS)) or [brief(error, 2 * LONGEST)]
+        if other := _other_program(source, text):
+            raise InputError(other, source=source) from None
+        reasons = [*_reasons(text, error)]
         raise together([InputError(f"not valid TOML: {why}", source=source) for why in reasons]) from None
 
 
-def _hints(text: str) -> Iterator[str]:
-    """Say of a text that is no TOML which of its lines lack quotes or a decimal point."""
-    for number, line in enumerate(text.splitlines(), 1):
-        match = _BARE.fullmatch(line[:_LONGEST_LINE])
-        if match is not None:
-            yield f"line {number}: {_with_quotes(*match.groups())}"
-        elif _OPEN.fullmatch(line[:_LONGEST_LINE]):
-            yield f'line {number}: this text does not end; a second " is missing'
+def _hint(line: str) -> str:
+    """Return what a line that is no TOML lacks, quotes or a decimal point; empty for anything else."""
+    match = _BARE.fullmatch(line[:_LONGEST_LINE])
+    if match is not None:
+        return _with_quotes(*match.groups())
+    return 'this text does not end; a second " is missing' if _OPEN.fullmatch(line[:_LONGEST_LINE]) else ""
+
+
+def _defined_twice(lines: Sequence[str]) -> str:
+    """Return that the last key or table of some lines stands before, too, with both places; empty if not."""
+    table, places = "", []
+    for number, line in enumerate(lines, 1):
+        if found := _TABLE.match(line[:_LONGEST_LINE]):
+            table = "".join(found[1].split())
+            places.append((f"[{table}]", number))
+        elif found := _KEY.match(line[:_LONGEST_LINE]):
+            places.append((".".join(filter(None, (table, "".join(found[1].split())))), number))
+    if not places:
+        return ""
+    name, last = places[-1]
+    first = next(number for other, number in places if other == name)
+    return f"{name} stands twice, in line {first} and in line {last}; leave out one" if first < last else ""
 
 
 def _with_quotes(key: str, value: str) -> str:

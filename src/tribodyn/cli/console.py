@@ -5,12 +5,13 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import warnings
 from argparse import Namespace
 from dataclasses import dataclass
 from typing import Any, TextIO
 
 from tribodyn.cli.log import printed
-from tribodyn.core.quoting import on_one_line
+from tribodyn.core.quoting import on_one_line, without_controls
 
 
 @dataclass(frozen=True)
@@ -37,13 +38,22 @@ class Console:
         """Print the result."""
         printed(text)
         if not (self.quiet or self.json):
-            print(text)
+            print(without_controls(text))
 
     def note(self, text: str) -> None:
         """Print the progress of the work."""
         printed(text)
         if not self.quiet:
-            _on_stderr(text)
+            _on_stderr(without_controls(text))
+
+
+def escape_warnings() -> None:
+    """Print warnings of libraries, which may quote any title, without characters that move a cursor."""
+
+    def show(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
+        _on_stderr(without_controls(f"{category.__name__}: {message}"))
+
+    warnings.showwarning = show
 
 
 def show_json(document: Any) -> None:

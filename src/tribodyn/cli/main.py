@@ -91,6 +91,8 @@ exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, 
 """
 
 
+_NEAR_COMMAND: Final = 0.65
+"""Likeness of a command to one that was probably meant, at least: "rum" for "run", but no other verb."""
 _NEAR: Final = 0.7
 """Likeness of an option to one that was probably meant, at least."""
 
@@ -105,7 +107,7 @@ class _Parser(argparse.ArgumentParser):
         """Return the parsed arguments, or raise their error, with a suggestion."""
         name = next((argument for argument in arguments if not argument.startswith("-")), None)
         if name is not None and name not in COMMANDS:
-            near = "--help" if name == "help" else closest(name, COMMANDS)
+            near = "--help" if name == "help" else closest(name, COMMANDS, cutoff=_NEAR_COMMAND)
             hint = f"; did you mean `tribodyn {near}`?" if near else ""
             raise InputError(f"{as_given(name)}; allowed: {', '.join(COMMANDS)}{hint}", key="COMMAND")
         args, unknown = self.parse_known_args(arguments)

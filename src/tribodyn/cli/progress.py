@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import Any, Final, Protocol
 
 from tribodyn.cli.console import Console, is_terminal
+from tribodyn.core.quoting import without_controls
 
 _MESSAGE = "compiling the equations for this machine; later runs start at once"
 
@@ -146,7 +147,7 @@ class Bar:
     def note(self, text: str) -> None:
         """Print a line above the bar."""
         if not self._console.quiet:
-            self._write(text, file=sys.stderr)
+            self._write(without_controls(text), file=sys.stderr)
 
 
 def progress(total: float, console: Console, measure: Measure = SIMULATED) -> Progress:

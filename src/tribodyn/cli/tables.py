@@ -10,14 +10,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, Final
 
+from tribodyn.core.quoting import GREY, PLAIN
 from tribodyn.views.numbers import rounded
 
 if TYPE_CHECKING:
     from tribodyn.results.summary import KeyResult
 
 _SHOWN_IN_FULL: Final = (1e4, 1e9)
-_GREY: Final = "\x1b[2m"
-_PLAIN: Final = "\x1b[0m"
 
 
 def in_words(summary: Mapping[str, object]) -> Iterator[str]:
@@ -45,7 +44,7 @@ def _mark(name: str, summary: Mapping[str, object]) -> bool:
 def grey(text: str, warning: object) -> str:
     """Return a text that a terminal shows in grey where there is a warning, unless colours are unwanted."""
     wanted = warning and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    return f"{_GREY}{text}{_PLAIN}" if wanted else text
+    return f"{GREY}{text}{PLAIN}" if wanted else text
 
 
 def _numbers(summary: Mapping[str, object]) -> Iterator[str]:

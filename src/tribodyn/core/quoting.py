@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Collection
 from typing import Final
 
@@ -10,6 +11,9 @@ from tribodyn.core.synonyms import meanings
 
 LONGEST: Final = 80
 """Characters of a given text that a message repeats at most."""
+GREY: Final = "\x1b[2m"
+PLAIN: Final = "\x1b[0m"
+"""What makes a terminal write in grey, and as before."""
 
 
 def brief(text: object, most: int = LONGEST) -> str:
@@ -37,6 +41,12 @@ def brief(text: object, most: int = LONGEST) -> str:
 def on_one_line(text: str) -> str:
     """Return a text with codes for characters that are not printed, such as those that move a cursor."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def without_controls(text: str) -> str:
+    """Return a text of several lines with codes for characters that are not printed; some may be grey."""
+    parts = re.split(f"({re.escape(GREY)}|{re.escape(PLAIN)}|[\n\t])", text)
+    return "".join(part if part in (GREY, PLAIN, "\n", "\t") else on_one_line(part) for part in parts)
 
 
 def as_given(text: str) -> str:

@@ -144,6 +144,9 @@ def _refuse_bombs(content: bytes) -> None:
 
     room = MOST_COMPRESSED + len(content)
     with netCDF4.Dataset("result", memory=content) as file:
+        # Elements of variable length may all be the same one, which is made room for each time.
+        if file.groups or any((file.vltypes, file.cmptypes, file.enumtypes)):
+            raise ValueError("it has groups or types of its own; a result has numbers and texts only")
         for name, variable in file.variables.items():
             room -= _declared(variable) if variable.dtype is not str else _text_size(variable, room, content)
             if room < 0:

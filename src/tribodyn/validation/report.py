@@ -110,9 +110,9 @@ def as_page(judged: Judged) -> str:
     """Return the page of a set for the manual."""
     one = judged.set
     counts = f"**Kind of check: {one.kind.value}. {_counted(judged.counts)}.**"
-    parts = [f"# {one.title}", str(one.table["compared"]), counts]
+    parts = [f"# {_plain(one.title)}", str(one.table["compared"]), counts]
     if judged.outcome.plot is not None:
-        parts.append(f"![Measured and computed values: {one.title}]({one.name}.png)")
+        parts.append(f"![Measured and computed values: {_plain(one.title)}]({one.name}.png)")
     parts.append("## Measured and computed\n\n" + "\n".join(_table(judged.outcome.comparisons)))
     parts.append(
         "Intervals are half widths, of computed values below and above where they differ. E is the "
@@ -123,13 +123,15 @@ def as_page(judged: Judged) -> str:
     if misses:
         parts.append(
             "## Misses, and numbers with E > 1\n\n"
-            + "\n".join(f"- *{row.name}*: {text}" for row, text in misses)
+            + "\n".join(f"- *{_plain(row.name)}*: {_plain(text)}" for row, text in misses)
         )
     notes = [
         (row.name, text) for row in judged.outcome.comparisons for text in (row.not_judged, row.note) if text
     ]
     if notes:
-        parts.append("## Remarks\n\n" + "\n".join(f"- *{name}*: {text}" for name, text in notes))
+        parts.append(
+            "## Remarks\n\n" + "\n".join(f"- *{_plain(name)}*: {_plain(text)}" for name, text in notes)
+        )
     if one.bands:
         parts.append("## Acceptance bands\n\n" + "\n".join(_bands(one.bands.values())))
     if one.inputs:
@@ -236,7 +238,15 @@ def _table(rows: Iterable[Comparison]) -> Iterator[str]:
     for row in rows:
         measured, computed, error, null = _cells(row)
         spread = "" if row.spread is None else f"{number(row.spread[0])} to {number(row.spread[1])}"
-        cells = (_named(row), measured, computed, spread, error, null, allowed(row.band, row.measured))
+        cells = (
+            _plain(_named(row)),
+            measured,
+            computed,
+            spread,
+            error,
+            null,
+            allowed(row.band, row.measured),
+        )
         yield f"| {' | '.join(cells)} | {row.verdict.value} |"
 
 
@@ -244,7 +254,7 @@ def _bands(bands: Iterable[Band]) -> Iterator[str]:
     yield "| band | given by |"
     yield "|---|---|"
     for band in bands:
-        yield f"| {band.name.replace('_', ' ')} | {band.source.replace('|', '/')} |"
+        yield f"| {_plain(band.name.replace('_', ' '))} | {_plain(band.source)} |"
 
 
 def _inputs(one: ValidationSet) -> Iterator[str]:
@@ -253,9 +263,15 @@ def _inputs(one: ValidationSet) -> Iterator[str]:
     for given in one.inputs.values():
         source = f"“{given.source}”" if given.source else ""
         origin = "; ".join(text for text in (source, given.assumed and f"assumed: {given.assumed}") if text)
-        yield f"| {given.name.replace('_', ' ')} | {given.text} | {given.band_text} | {origin} |"
+        yield f"| {given.name.replace('_', ' ')} | {given.text} | {given.band_text} | {_plain(origin)} |"
 
 
 def _demoted(readme: str) -> str:
-    """Return a README without its heading, for a page that has its own."""
-    return "\n".join(line for line in readme.splitlines() if not line.startswith("# ")).strip()
+    """Return a README without its heading, for a page that has its own, and without HTML."""
+    lines = (line for line in readme.splitlines() if not line.startswith("# "))
+    return "\n".join(lines).strip().replace("<", "&lt;")
+
+
+def _plain(text: str) -> str:
+    """Return a text for one cell or line of Markdown: no HTML, no end of the cell."""
+    return " ".join(text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "/").split())
