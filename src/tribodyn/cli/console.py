@@ -80,7 +80,10 @@ def _on_stderr(text: str) -> None:
 
 
 def forgive_encodings() -> None:
-    """Let streams that cannot show a character show its code instead of failing."""
+    """Let streams that cannot show a character show its code instead of failing; none may be closed."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115  # until the end
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM: the first ends a run soon and saves it, the second leaves at once.
+"""Ctrl-C, SIGTERM and SIGHUP: the first ends a run soon and saves it, the second leaves at once.
 
 A signal may come between any two instructions. What its handler raised could get lost in a callback of the
 interpreter, or come out of an import as another error. So it raises nothing. Where work is under way whose
@@ -18,7 +18,12 @@ from dataclasses import dataclass, field
 from types import FrameType
 from typing import Final
 
-_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM)
+_HANGUP: Final = (signal.SIGHUP,) if sys.platform != "win32" else ()
+_SIGNALS: Final = (
+    *(signal.SIGINT, signal.SIGTERM),
+    # The end of the terminal; what was started with nohup ignores it, and goes on.
+    *(number for number in _HANGUP if signal.getsignal(number) is not signal.SIG_IGN),
+)
 _STANDARD_ERROR: Final = 2
 _FAILED: Final = 1
 _STOPPING: Final = "stopping, then saving and drawing; interrupt again to leave at once"

@@ -12,7 +12,7 @@ import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Final
 
 from tribodyn.core.errors import InputError
@@ -59,11 +59,30 @@ def _handlers(args: Namespace) -> Iterator[logging.Handler]:
         yield shown
     if args.log is not None:
         try:
-            file = logging.FileHandler(args.log, encoding="utf-8")
+            file = _LogFile(args.log)
         except OSError as error:
             raise InputError(f"{as_given(args.log)}: {error.strerror}", key="--log") from None
         file.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
         yield file
+
+
+class _LogFile(logging.FileHandler):
+    """A log file whose loss, as on a full disk, is reported once and ends nothing."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(path, encoding="utf-8")
+        self._lost = False
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Report that the file cannot be written."""
+        if not self._lost:
+            self._lost = True
+            print(f"tribodyn: --log: {on_one_line(self.baseFilename)} cannot be written", file=sys.stderr)
+
+    def close(self) -> None:
+        """Close the file."""
+        with suppress(OSError):
+            super().close()
 
 
 @contextmanager

@@ -22,14 +22,14 @@ def processors() -> int:
     return max(count, 1)
 
 
-def free_handles() -> float:
+def free_handles() -> int:
     """Return the number of further files, pipes and sockets that this process may open."""
     if sys.platform == "win32":
-        return math.inf
+        return sys.maxsize
     import resource
 
     limit, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
     if limit == resource.RLIM_INFINITY:
-        return math.inf
+        return sys.maxsize
     # Looking takes one itself.
     return limit - len(os.listdir("/dev/fd")) + 1

@@ -44,6 +44,8 @@ from tribodyn.validation.template import README
 from tribodyn.validation.vary import sides_of
 
 LARGEST: Final = 1_000_000
+MOST: Final = 1000
+"""Rows of a file, at most."""
 NEEDED: Final = ("quantity", "measured", "half_width", "accepted")
 TIGHTER: Final = 0.1
 """Factor on the tolerance of the integration for its share of the uncertainty."""
@@ -81,7 +83,7 @@ class Rig(ValidationSet):
     def readme(self) -> str:
         """Return the README beside the file, empty without one."""
         path = self.path.with_name(README)
-        return path.read_text(encoding="utf-8") if path.is_file() else ""
+        return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
 
     def run(self) -> Outcome:
         """Simulate the case, and again with tighter tolerance and at the ends of assumed inputs."""
@@ -181,10 +183,12 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     try:
         content = read_regular(path, LARGEST)
         rows = list(csv.DictReader(content.decode("utf-8-sig").splitlines(), skipinitialspace=True))
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{as_given(str(path))} cannot be read: {error}", key="NAME") from None
     if not rows or not set(NEEDED) <= rows[0].keys():
         raise InputError(f"{as_given(str(path))} needs the columns {', '.join(NEEDED)}", key="NAME")
+    if len(rows) > MOST:
+        raise InputError(f"{as_given(str(path))} has {len(rows)} rows; allowed: {MOST} at most", key="NAME")
     numbers = tuple({name: (cell or "").strip() for name, cell in row.items() if name} for row in rows)
     _check_names([row["quantity"] for row in numbers])
     digest = hashlib.sha256(content).hexdigest()
@@ -192,6 +196,12 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     for row in numbers:
         if not _is_file(row["measured"]):
             _number(row, "measured")
+        elif Path(row["measured"]).name != row["measured"]:
+            raise InputError(
+                f"{row['quantity']}: measured is {as_given(row['measured'])}; "
+                "allowed: a file in the same folder",
+                key="NAME",
+            )
         if _number(row, "half_width") < 0.0:
             raise InputError(
                 f"{row['quantity']}: half_width is {as_given(row['half_width'])}; allowed: 0 or more",

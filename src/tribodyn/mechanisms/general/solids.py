@@ -141,7 +141,9 @@ def _mesh(given: Given) -> Solid:
         centre = given["scaled_about"] + scale * (centre - given["scaled_about"])
     placed = {"centre": centre, "first_axis": solid.axes[0], "second_axis": solid.axes[1]}
     inertia = tuple((scale * scale * solid.squares).tolist())
-    return scale**3 * solid.volume, inertia, {key: tuple(v.tolist()) for key, v in placed.items()}
+    volume = scale**3 * solid.volume
+    demand(volume > 0.0 and min(inertia) > 0.0, "facets", "the solid is too small to have a mass")
+    return volume, inertia, {key: tuple(v.tolist()) for key, v in placed.items()}
 
 
 _SOLIDS: Final[Mapping[str, Callable[[Given], Solid]]] = {
