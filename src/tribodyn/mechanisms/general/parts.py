@@ -269,7 +269,7 @@ class SpringKeys(NamedGroup):
     stiffness: float = quantity("0 N/mm", "force over elongation", "assumed", ge=0, example="2 N/mm")
     damping: float = quantity("0 N s/m", "force over speed", "assumed", ge=0, example="5 N s/m")
     length: float | None = quantity(
-        None, "length without force; by default the distance of its ends", "", gt=0, example="80 mm"
+        None, "length without force; by default the distance of its ends", "", ge=0, example="80 mm"
     )
 
     def model_post_init(self, context: object, /) -> None:

@@ -248,7 +248,7 @@ class PointsKeys(ElementKeys):
         None,
         "its length without force; by default the distance of its ends",
         "",
-        gt=0,
+        ge=0,
         example="80 mm",
     )
 
@@ -258,7 +258,7 @@ class PointsKeys(ElementKeys):
         points = np.array([self.first_point, self.second_point])
         drawn = float(dense.norm(points[1] - points[0]))
         demand(drawn > 0.0, "second_point", "both ends are at one point; draw them apart")
-        return (of_points(self.between, points, "distance", self.length or drawn),)
+        return (of_points(self.between, points, "distance", drawn if self.length is None else self.length),)
 
     def outlines(self, joints: Joints) -> Iterable[Outline]:
         """Return the line between its ends."""

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from tribodyn.mechanisms.general.elements.base import PointsKeys
+from tribodyn.cases.case import demand
+from tribodyn.mechanisms.general.elements.base import Joints, Leg, PointsKeys
 
 
 class Distance(PointsKeys):
@@ -38,3 +39,9 @@ second_point = "100, 60, 20 mm"
 joint = "input"
 torque = "0.2 N m"
 """
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the leg from the first point to the second."""
+        words = "points at no distance are held by a spherical joint; give a length above zero"
+        demand(self.length is None or self.length > 0.0, "length", words)
+        return super().legs(joints)

@@ -54,8 +54,8 @@ force = { positions = "-30, -10, 10, 30 mm", values = "-20, -2, 2, 20 N" }
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return the leg between its ends."""
-        words = "a spring needs a stiffness, a preload or a table of its force over positions"
-        demand(bool(self.stiffness or self.preload or self.force), "stiffness", words)
+        words = "a spring needs a stiffness, a preload, a damping or a table of its force over positions"
+        demand(bool(self.stiffness or self.preload or self.damping or self.force), "stiffness", words)
         over = None if self.force is None else self.force.over
         demand(
             over in (None, "positions"),

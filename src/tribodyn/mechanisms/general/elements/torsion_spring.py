@@ -40,8 +40,10 @@ torque = { angles = "-60, -20, 20, 60 deg", values = "-3, -0.5, 0.5, 3 N m" }
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return the leg of the angle."""
-        words = "a torsion spring needs a stiffness, a preload or a table of its torque over angles"
-        demand(bool(self.stiffness or self.preload or self.torque), "stiffness", words)
+        words = (
+            "a torsion spring needs a stiffness, a preload, a damping or a table of its torque over angles"
+        )
+        demand(bool(self.stiffness or self.preload or self.damping or self.torque), "stiffness", words)
         over = None if self.torque is None else self.torque.over
         demand(over in (None, "angles"), "torque", "the table of a torsion spring is one over angles")
         return (self.leg_of(joints, "angle", "a torsion spring"),)
