@@ -1,4 +1,4 @@
-"""Draw the figures of the source paper, judge its claims, and show what the left-out lever moment does.
+"""Draw the figures of the source paper, and show what the left-out lever moment does.
 
 python docs/plots/reproduction.py OUTPUT_DIRECTORY
 """
@@ -11,8 +11,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tribodyn.papers.cheng_2022.claims import CLAIMS, judge
-from tribodyn.papers.cheng_2022.figures import FIGURES, Runs, save_claims, save_figure
+from tribodyn.papers.cheng_2022.figures import FIGURES, Runs, save_figure
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, FORMULATIONS, smooth
 
 LOOKS = {"paper": ("0.55", "--"), "exact": ("#0072b2", "-")}
@@ -53,7 +52,6 @@ def main() -> None:
     runs = Runs()
     for figure in FIGURES.values():
         save_figure(figure, figure.data(runs, "paper"), target)
-    save_claims(judge(runs, CLAIMS), target)
     draw_lever_moment(runs, target)
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from measures.base import Numbers
 from tribodyn.papers.cheng_2022.claims import all_joints
-from tribodyn.papers.cheng_2022.claims.all_joints import GUIDE_JOINT, ONE, means
-from tribodyn.papers.cheng_2022.claims.base import GUIDE, Trial
+from tribodyn.papers.cheng_2022.claims.all_joints import ONE, means
+from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.runs import JOINTS, Runs
 
 CLEARANCES: Final = (20, 40)
@@ -19,8 +19,9 @@ CLEARANCES: Final = (20, 40)
 
 def factor(runs: Runs, clearance: float, guide: object = None) -> str:
     """Return how many times as much all joints err as the trunnion, with a length of the guide."""
-    changes = {} if guide is None else {GUIDE.key: guide}
-    return f"{all_joints.factor(Trial(runs, 'exact', changes), clearance).value:.1f}"
+    if guide is not None:
+        runs = Runs(changes={"vsv-joints": {"joints.guide.clearance.length": guide}})
+    return f"{all_joints.factor(Trial(runs, 'exact'), clearance).value:.1f}"
 
 
 def alone(runs: Runs, clearance: float) -> dict[str, float]:
@@ -66,7 +67,7 @@ def over_trunnion(runs: Runs, joint: str) -> str:
 
 def without_guide(runs: Runs, clearance: float) -> str:
     """Return how many times as much all joints but the guide err as the trunnion."""
-    others = tuple(joint for joint in JOINTS if joint != GUIDE_JOINT)
+    others = tuple(joint for joint in JOINTS if joint != "guide")
     return f"{means(Trial(runs, 'exact'), clearance, others)[0] / alone(runs, clearance)[ONE]:.1f}"
 
 
@@ -81,7 +82,7 @@ NUMBERS: Final[Numbers] = {
             factor, clearance=at * 1e-6, guide=length
         )
         for at in CLEARANCES
-        for length in GUIDE.values
+        for length in ("5 mm", "10 mm", "20 mm", "40 mm")
     },
     **{
         f"error of {joint}, {at} µm [deg]": partial(of_one, clearance=at * 1e-6, joint=joint)
@@ -99,9 +100,6 @@ NUMBERS: Final[Numbers] = {
     },
     "errors do not add, both directions [%]": partial(missed, ways=slice(0, 1)),
     "errors do not add, each direction [%]": partial(missed, ways=slice(1, 3)),
-    **{
-        f"{joint} over trunnion": partial(over_trunnion, joint=joint)
-        for joint in ("crank-pivot", GUIDE_JOINT)
-    },
+    **{f"{joint} over trunnion": partial(over_trunnion, joint=joint) for joint in ("crank-pivot", "guide")},
 }
 """Numbers by name."""

@@ -82,12 +82,6 @@ def unstable(runs: Runs, end: int) -> str:
     return f"{(min(ended), max(ended))[end]:.2f}"
 
 
-def undamped_force(runs: Runs) -> str:
-    """Return the largest force without damping over a cycle in `exact`, friction as a moment [N]."""
-    run = vsv(runs, contact__law="ke", joint__friction="moment", run__cycles=1)
-    return f"{force(run).max():.0f}"
-
-
 def rise_of_tilt(runs: Runs, name: str) -> str:
     """Return how many times as large a smooth mean is in `exact` as in `paper`."""
     means = [
@@ -128,7 +122,6 @@ NUMBERS: Final[Numbers] = {
     "vane range, most [deg]": partial(range_of_vane, end=1),
     "unstable moment, least [N m]": partial(unstable, end=0),
     "unstable moment, most [N m]": partial(unstable, end=1),
-    "undamped, moment, exact, peak [N]": undamped_force,
     "tilt about Y, exact over paper": partial(rise_of_tilt, name="phi_y"),
     "peak pressure, exact over paper": partial(rise_of_tilt, name="p_max"),
     **{f"grid, {c} µm": partial(default_grid, clearance=f"{c} um") for c in CLEARANCES},

@@ -11,7 +11,7 @@ import xarray as xr
 from measures.base import Numbers
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.wear import profile
-from tribodyn.papers.cheng_2022.runs import Runs
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs
 from tribodyn.papers.cheng_2022.wear import worn
 
 MILLION: Final[dict[str, object]] = {
@@ -87,6 +87,13 @@ def volume(runs: Runs, changes: dict[str, object]) -> str:
     return f"{1e9 * float(campaign(runs, changes)['wear_volume'].values[-1]):.5f}"
 
 
+def by_clearance(runs: Runs) -> str:
+    """Return the largest depths after 10 000 cycles with each clearance of the paper [µm]."""
+    each = ({"joint.clearance": f"{value * 1e6:g} um", "wear.cycles": 10_000} for value in CLEARANCES)
+    depths = (1e6 * float(runs.run("vsv", one)["wear_depth_max"].values[-1]) for one in each)
+    return ", ".join(f"{depth:.2f}" for depth in depths)
+
+
 def paper_depth(runs: Runs, clearance: float) -> str:
     """Return the largest depth in the paper's convention after 400 cycles [1e-4 µm]."""
     run = worn(runs, "paper", clearance, 400)
@@ -106,6 +113,7 @@ NUMBERS: Final[Numbers] = {
     "wear, a million cycles, straight [µm]": straight,
     "wear, first error [deg]": partial(error, stop=0),
     "wear, last error [deg]": partial(error, stop=-1),
+    "wear, 10 000 cycles, by clearance [µm]": by_clearance,
     "wear ratio, early": partial(ratio, cycles=1e3),
     "wear ratio, late": partial(ratio, cycles=1e6),
     **{

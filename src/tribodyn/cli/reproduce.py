@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 HELP = "make the figures of the source paper, and judge its claims"
 CLAIMS: Final = "claims"
+ENSEMBLE: Final = "ensemble"
 ALL: Final = "all"
+_PROCESSES: Final = 2
+"""Members of the ensemble that are measured at once, at most."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -28,7 +31,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "what",
         nargs="*",
         metavar="WHAT",
-        help="fig8 ... fig19, joints, undamped, claims or all (default: all)",
+        help="fig8 ... fig19, joints, undamped, claims or all (default: all); ensemble, alone: measure every "
+        "claim on every member of the ensemble behind the verdicts, but those that the folder has",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", default="results-reproduction", help="where files go"
@@ -56,7 +60,9 @@ def execute(args: Namespace) -> int:
     with directory.reserved(), announced_compilation(console.note):
         runs = Runs(note=console.note)
         for name in wanted:
-            if name == CLAIMS:
+            if name == ENSEMBLE:
+                _ensemble(directory.path, console)
+            elif name == CLAIMS:
                 _claims(runs, directory.path, console)
             else:
                 _figure(FIGURES[name], runs, args.formulation, directory.path, console)
@@ -68,8 +74,10 @@ def _wanted(given: list[str], figures: list[str]) -> list[str]:
     """Return the names to make, each once, in the order of the paper."""
     names = [*figures, CLAIMS]
     for name in given:
-        if name not in (*names, ALL):
-            raise InputError(f"{as_given(name)}; allowed: {', '.join(names)}, {ALL}", key="WHAT")
+        if name not in (*names, ALL, ENSEMBLE):
+            raise InputError(f"{as_given(name)}; allowed: {', '.join(names)}, {ALL}, {ENSEMBLE}", key="WHAT")
+    if ENSEMBLE in given:
+        return [ENSEMBLE]
     return names if ALL in given else [name for name in names if name in given]
 
 
@@ -79,6 +87,13 @@ def _figure(figure: PaperFigure, runs: Runs, formulation: str, folder: Path, con
     data = figure.data(runs, formulation)
     console.note(f"drawing {figure.name}: {figure.title}")
     save_figure(figure, data, folder)
+
+
+def _ensemble(folder: Path, console: Console) -> None:
+    from tribodyn.papers.cheng_2022.claims.measured import measure
+
+    target = measure(folder, min(os.cpu_count() or 1, _PROCESSES), console.note)
+    console.say(f"the ensemble is in {target}")
 
 
 def _claims(runs: Runs, folder: Path, console: Console) -> None:

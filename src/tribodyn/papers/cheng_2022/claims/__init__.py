@@ -12,16 +12,18 @@ from tribodyn.papers.cheng_2022.claims import (
     errors,
     forces,
     journal,
+    method,
     pressure,
     undamped,
     wear,
 )
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
-from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, as_text, judge
+from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, as_text, judge, kept_rows
 
 CLAIMS: Final[tuple[Claim, ...]] = (
     *undamped.CLAIMS,
     *damping.CLAIMS,
+    *method.CLAIMS,
     *journal.CLAIMS,
     *forces.CLAIMS,
     *attitude.CLAIMS,
@@ -33,4 +35,15 @@ CLAIMS: Final[tuple[Claim, ...]] = (
 )
 """The conclusion that matters most, then in the order of the paper."""
 
-__all__ = ["CLAIMS", "Claim", "Finding", "Row", "Trial", "as_json", "as_markdown", "as_text", "judge"]
+__all__ = [
+    "CLAIMS",
+    "Claim",
+    "Finding",
+    "Row",
+    "Trial",
+    "as_json",
+    "as_markdown",
+    "as_text",
+    "judge",
+    "kept_rows",
+]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from importlib.resources import files
 from typing import Final, Literal, NamedTuple, TypeAlias
@@ -47,30 +47,57 @@ NARROW: Final = CLEARANCES[0]
 Domain: TypeAlias = Literal["smooth motion", "impacts", "whole"]
 """Part of a run in which a number is measured: outside the first tenth of each stroke; the 50 ms after each
 reversal; or all of it but the first tenth of the first stroke, where it starts."""
-Formulations: TypeAlias = Literal["both", "alike", "exact"]
+Formulations: TypeAlias = Literal["both", "alike", "exact", "all"]
+IN: Final[dict[Formulations, tuple[str, ...]]] = {
+    "both": ("paper", "exact"),
+    "alike": ("paper",),
+    "exact": ("exact",),
+    "all": ("printed", "paper", "exact"),
+}
+"""Formulations in which a claim is measured; one that is not about the mechanism in either."""
+
+
+SLOW: Final = ("tolerance", "solver")
+"""Factors that slow claims leave as they are."""
+MANY_RUNS: Final = ("solver",)
+"""The same of claims with many runs, which another solver would take most of the time for."""
+
+
+EARLY: Final = "the run ends early"
+"""What is said where a run left the range of the contact law."""
+
+
+class EndedEarly(Exception):
+    """A run left the range of the contact law: what is measured on all of it is not there."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """Runs of one formulation on which a claim is measured, with some assumptions changed.
+    """Runs of one formulation on which a claim is measured.
 
     Attributes
     ----------
     runs
         The runs, each computed once.
     formulation
-        ``paper`` or ``exact``.
-    changes
-        Keys of the case that are changed, with their values.
+        ``printed``, ``paper`` or ``exact``.
+    left_out
+        Time after each reversal that is no smooth motion [s]; by default a tenth of a stroke.
     """
 
     runs: Runs
     formulation: str
-    changes: Mapping[str, object] = field(default_factory=dict)
+    left_out: float | None = None
 
     def vsv(self, clearance: float = NARROW, more: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return two cycles of the mechanism, with ``more`` changes where given."""
-        return self.runs.vsv(self.formulation, clearance, {**self.changes, **(more or {})})
+        return self.whole(self.runs.vsv(self.formulation, clearance, more))
+
+    def whole(self, run: xr.Dataset) -> xr.Dataset:
+        """Return a run that went to its end, with the time that is left out of smooth motion."""
+        if run.attrs["failure"]:
+            raise EndedEarly
+        return run if self.left_out is None else run.assign_attrs(impact_time=self.left_out)
 
     def part(self, domain: Domain, more: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return two cycles at 20 µm, in smooth motion or whole."""
@@ -82,38 +109,6 @@ class Trial:
     def every_clearance(self, more: Mapping[str, object] | None = None) -> list[xr.Dataset]:
         """Return the mechanism with each clearance of the paper."""
         return [self.vsv(clearance, more) for clearance in self.runs.clearances]
-
-
-@dataclass(frozen=True)
-class Assumption:
-    """Something the paper does not give, and what is tried in its place.
-
-    Attributes
-    ----------
-    symbol
-        How the table calls it.
-    key
-        Its key in the case.
-    values
-        Values of the key that are tried.
-    """
-
-    symbol: str
-    key: str
-    values: tuple[object, ...]
-
-    def __str__(self) -> str:
-        """Return the symbol with all its values."""
-        return f"{self.symbol} = {', '.join(str(value) for value in self.values)}"
-
-
-FRICTION: Final = Assumption("μ_f", "joint.friction_coefficient", (0.05, 0.1, 0.2))
-ENTRY_VELOCITY: Final = Assumption(
-    "v_min", "contact.minimum_entry_velocity", ("0.1 mm/s", "1 mm/s", "5 mm/s")
-)
-GUIDE: Final = Assumption(
-    "length of the ring's guide", "joints.guide.clearance.length", ("5 mm", "10 mm", "20 mm", "40 mm")
-)
 
 
 @dataclass(frozen=True)
@@ -158,10 +153,14 @@ class Claim:
         Why the finding is what it is, where it is not simply the paper's.
     condition
         What must be assumed for the claim to hold at all.
-    varies
-        Assumptions that the finding is measured with, too.
     formulations
-        ``both``; ``alike`` where it is not about the mechanism; ``exact`` where `paper` has no such model.
+        ``both``: ``paper`` and ``exact``; ``all``: ``printed``, too; ``alike`` where it is not about the
+        mechanism; ``exact`` where the others have no such model.
+    margin
+        Whether the number must pass its limit by the scatter of the ensemble: *always*, *opposite*.
+    leave
+        Factors of the ensemble that it does not meet. Without the tolerance it is measured on few members:
+        it has tolerances of its own, and its runs take minutes.
     """
 
     name: str
@@ -172,8 +171,9 @@ class Claim:
     measure: Callable[[Trial], Finding] | None = None
     reason: str = ""
     condition: str = ""
-    varies: tuple[Assumption, ...] = ()
     formulations: Formulations = "both"
+    margin: bool = False
+    leave: tuple[str, ...] = ()
 
     @property
     def where(self) -> str:

@@ -15,11 +15,11 @@ Range: TypeAlias = tuple[float, float]
 
 VERDICTS: Final[dict[Verdict, str]] = {
     "reproduced": "the number is strictly inside the bound",
-    "on a condition": "it is inside the bound only with a value that the paper does not give, or that no "
-    "equation allows",
+    "on a condition": "it is inside the bound with a value that no equation allows",
     "differs": "it is outside the bound and strictly inside a wider one",
-    "contradicted": "it is outside both",
-    "not decidable": "the paper does not say which of several numbers is meant, and verdicts on them differ",
+    "contradicted": "it is outside both, or the run ends early",
+    "not decidable": "no verdict has nine tenths of the ensemble: choices that the paper leaves open, or "
+    "our own, decide",
     "not tested": "it is not simulated in this formulation",
 }
 """All verdicts, each with its meaning."""
@@ -33,6 +33,8 @@ STRICT: Final = "2026-11-22"
 """Day on which every claim got a strict bound with an owner."""
 REVIEWED: Final = "2026-11-23"
 """Day on which domains, sentences and the claims left out until then were added."""
+VARIED: Final = "2026-11-26"
+"""Day on which every claim got an ensemble, and half-sentences rows of their own."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,12 @@ class Bound:
             return "reproduced"
         return "differs" if self.partly[0] < value < self.partly[1] else "contradicted"
 
+    def with_margin(self, margin: float) -> Bound:
+        """Return the bound that a number must pass by a margin; this near to its limits it differs."""
+        low, high = self.full
+        wide = min(low - margin, self.partly[0]), max(high + margin, self.partly[1])
+        return replace(self, full=(low + margin, high - margin), partly=wide)
+
     @property
     def edges(self) -> tuple[float, ...]:
         """The finite ends of ``full``, at which a claim is not reproduced."""
@@ -104,6 +112,14 @@ class Bound:
         else:
             text = f"{low:.3g} to {high:.3g}"
         return f"{text}{' ' if self.unit else ''}{self.unit} ({self.by}, {self.since})"
+
+
+def of_span(bound: Bound, span: Range) -> Verdict:
+    """Return the verdict on numbers of which the paper does not say which one is meant."""
+    if bound.full[0] < span[0] and span[1] < bound.full[1]:
+        return "reproduced"
+    outside = span[1] <= bound.partly[0] or bound.partly[1] <= span[0]
+    return "contradicted" if outside else "not decidable"
 
 
 def _one_sided(

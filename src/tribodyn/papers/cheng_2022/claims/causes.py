@@ -14,8 +14,8 @@ from tribodyn.papers.cheng_2022.impacts import windows
 from tribodyn.papers.cheng_2022.runs import forward, smooth
 
 _NO_F_AIRY: Final[Mapping[str, object]] = {"loads.air_force_y": "0 N"}
-_NO_M_AIR: Final[Mapping[str, object]] = {"loads.air_moment": "0 N m", "run.start": "equilibrium"}
-_CAUSE: Final = below(0.5, "times", partly=0.9, since=REVIEWED)
+NO_M_AIR: Final[Mapping[str, object]] = {"loads.air_moment": "0 N m", "run.start": "equilibrium"}
+CAUSE: Final = below(0.5, "times", partly=0.9, since=REVIEWED)
 """An effect that is less than half without a load is caused by it."""
 
 
@@ -39,8 +39,7 @@ def _mean_without(trial: Trial, name: str, unit: str, scale: float) -> Finding:
 def impact_by_m_air(trial: Trial) -> Finding:
     """Measure the largest contact force after the reversals without M_air over that with it."""
     loaded, free = (
-        max(float(size(rows, "c").max()) for rows in windows(trial.vsv(more=more)))
-        for more in ({}, _NO_M_AIR)
+        max(float(size(rows, "c").max()) for rows in windows(trial.vsv(more=more))) for more in ({}, NO_M_AIR)
     )
     return Finding(f"{loaded:.3g} N with M_air, {free:.3g} N without", free / loaded)
 
@@ -75,15 +74,15 @@ def _agreement(share: float) -> float:
 CLAIMS: Final = (
     Claim(
         "F_cy by F_airy", ("F1",), "F_cy is negative due to the effect of F_airy", "smooth motion",
-        _CAUSE, f_cy_by_f_airy,
+        CAUSE, f_cy_by_f_airy,
     ),
     Claim(
         "tilt by F_airy", ("T2", "T3", "T6", "D4"), "F_airy makes the trunnion deflect around the X-axis",
-        "smooth motion", _CAUSE, phi_x_by_f_airy,
+        "smooth motion", CAUSE, phi_x_by_f_airy,
     ),
     Claim(
         "impact by M_air", ("F4",), "the reversal of M_air causes the fluctuation of the forces", "impacts",
-        _CAUSE, impact_by_m_air,
+        CAUSE, impact_by_m_air,
     ),
     Claim(
         "forces rise in the collision", ("C7", "C11"),

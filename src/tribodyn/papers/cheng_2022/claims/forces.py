@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed
-from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, above, below
+from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, VARIED, above, below
 from tribodyn.papers.cheng_2022.claims.smooth import weights
 from tribodyn.papers.cheng_2022.impacts import damping_along_rigid, peaks, windows
 from tribodyn.papers.cheng_2022.runs import forward, is_smooth, smooth
@@ -93,6 +93,17 @@ def separates(trial: Trial) -> Finding:
     return Finding(f"falls to {listed(np.array(least), '%')} of the mean at the reversals", max(least))
 
 
+def sides_change(trial: Trial) -> Finding:
+    """Measure the angle between the mean contact forces of both directions."""
+    run = smooth(trial.vsv())
+    ahead = forward(run)
+    there, back = (
+        np.array([run[f"F_c{axis}"].values[way].mean() for axis in "xy"]) for way in (ahead, ~ahead)
+    )
+    angle = float(np.degrees(np.arccos(there @ back / (np.hypot(*there) * np.hypot(*back)))))
+    return Finding(f"{angle:.3g}° apart", angle)
+
+
 def stable_at_reversals(trial: Trial) -> Finding:
     """Measure the largest contact force of the impacts over the mean of smooth motion."""
     run = trial.vsv()
@@ -123,20 +134,21 @@ CLAIMS: Final = (
     Claim(
         "F_cy negative", ("F1",), "F_cy is almost always negative", "smooth motion",
         above(95.0, "%", partly=50.0, origin=100.0), partial(sign_of_f_cy, domain="smooth motion"),
-        "it is positive for some tenths of a second after each reversal to forward motion",
+        "it is positive for some tenths of a second after each reversal to forward motion", margin=True,
     ),
     Claim(
         "F_cy negative, whole", ("F1",), "F_cy is almost always negative", "whole",
         above(95.0, "%", partly=50.0, origin=100.0, since=REVIEWED), partial(sign_of_f_cy, domain="whole"),
-        "it is positive for some tenths of a second after each reversal to forward motion",
+        "it is positive for some tenths of a second after each reversal to forward motion", margin=True,
     ),
     Claim(
         "F_cx larger", ("F2",), "F_cx is always larger than F_cy", "smooth motion",
-        above(1.0, "times", by="the paper"), partial(x_over_y, domain="smooth motion"),
+        above(1.0, "times", by="the paper"), partial(x_over_y, domain="smooth motion"), margin=True,
     ),
     Claim(
         "F_cx larger, whole", ("F2",), "F_cx is always larger than F_cy", "whole",
         above(1.0, "times", by="the paper", since=REVIEWED), partial(x_over_y, domain="whole"), _ALWAYS,
+        margin=True,
     ),
     Claim(
         "rigid dominates", ("F3",), "the rigid forces are dominant", "smooth motion",
@@ -156,6 +168,10 @@ CLAIMS: Final = (
     Claim(
         "surfaces separate", ("C6",), "at a reversal the surfaces separate and collide again", "impacts",
         below(1.0, "% of the mean", partly=10.0, since=REVIEWED), separates,
+    ),
+    Claim(
+        "contact changes sides", ("C6",), "the contact area changes with the direction", "smooth motion",
+        above(90.0, "°", partly=30.0, origin=180.0, since=VARIED), sides_change,
     ),
     Claim(
         "damping changes sign", ("C13", "C14"),

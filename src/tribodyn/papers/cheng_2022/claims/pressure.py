@@ -10,7 +10,8 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
-from tribodyn.papers.cheng_2022.claims.bounds import FIRST, above, below
+from tribodyn.papers.cheng_2022.claims.bounds import FIRST, VARIED, above, below
+from tribodyn.papers.cheng_2022.claims.causes import CAUSE, NO_M_AIR
 
 ZONE: Final = 0.05
 """Contact is where the pressure exceeds this share of its peak."""
@@ -103,6 +104,33 @@ def snapshots_differ(trial: Trial) -> Finding:
     return Finding(f"peaks {text} MPa", 100.0 * float(np.ptp(peaks) / peaks.min()))
 
 
+def interference_in_x(trial: Trial) -> Finding:
+    """Measure the peak pressure within 45° of the X direction over that elsewhere, the least of snapshots."""
+    run = trial.vsv()
+    near = np.abs(np.cos(run["theta"].values)) > np.sqrt(0.5)
+    shown = run["pressure"].values.max(axis=2)
+    least = float((shown[:, near].max(axis=1) / shown[:, ~near].max(axis=1)).min())
+    return Finding(f"at least {least:.3g} times", least)
+
+
+def axial_distribution(trial: Trial) -> Finding:
+    """Measure the range of the height of the pressure's centre over the snapshots, over the length."""
+    run = trial.vsv()
+    along, z = run["pressure"].values.sum(axis=1), run["z"].values
+    centre = (along * z).sum(axis=1) / along.sum(axis=1)
+    share = 100.0 * float(np.ptp(centre) / np.ptp(z))
+    return Finding(f"its centre moves by {share:.3g} % of the length", share)
+
+
+def snapshots_by_m_air(trial: Trial) -> Finding:
+    """Measure the range of the peak pressures of the snapshots without M_air over that with it."""
+    loaded, free = (
+        float(np.ptp(trial.vsv(more=more)["pressure"].values.max(axis=(1, 2)))) * 1e-6
+        for more in ({}, NO_M_AIR)
+    )
+    return Finding(f"{loaded:.3g} MPa with M_air, {free:.3g} MPa without", free / loaded)
+
+
 _LEVER: Final = (
     "with the lever moment, which the paper's printed rows leave out, the two ends bear on opposite sides"
 )
@@ -129,6 +157,18 @@ CLAIMS: Final = (
         "snapshots differ", ("P4",),
         "pressure values and axial distribution differ between the six positions", "smooth motion",
         above(10.0, "%"), snapshots_differ,
+    ),
+    Claim(
+        "axial distribution differs", ("P4",), "the axial distribution differs between the six positions",
+        "smooth motion", above(10.0, "% of the length", partly=2.0, since=VARIED), axial_distribution,
+    ),
+    Claim(
+        "snapshots by M_air", ("P4",), "the reversal of the drag causes the differences of the pressure",
+        "smooth motion", CAUSE, snapshots_by_m_air,
+    ),
+    Claim(
+        "interference in X", ("F2",), "the interference is more serious along X", "smooth motion",
+        above(1.0, "times", by="the paper", since=VARIED), interference_in_x,
     ),
 )  # fmt: skip
 """Claims on the contact pressure."""

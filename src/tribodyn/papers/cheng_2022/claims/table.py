@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import Any, Final, TypeAlias
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Final
 
-from tribodyn.papers.cheng_2022.claims.base import Assumption, Claim, Finding, Trial
+from tribodyn.papers.cheng_2022.claims.base import EARLY, IN, Claim, EndedEarly, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.bounds import Verdict
+from tribodyn.papers.cheng_2022.claims.ensemble import Judgement, judgement, kept
 from tribodyn.papers.cheng_2022.runs import Runs
 
 _WIDTH: Final = 100
 _ALIKE: Final = "alike"
-Spread: TypeAlias = tuple[Assumption, tuple[float, ...]]
-"""An assumption with the number found for each value tried."""
 
 
 @dataclass(frozen=True)
@@ -25,94 +25,83 @@ class Row:
     ----------
     claim
         The claim.
-    paper, exact
-        Findings in the two formulations; none where it is not tested, or alike.
-    spreads
-        What the assumptions do to the number, in the paper's formulation where it is tested there.
+    findings
+        What is found with the defaults, by formulation.
+    judgements
+        What the ensemble makes of it, by formulation.
     """
 
     claim: Claim
-    paper: Finding | None = None
-    exact: Finding | None = None
-    spreads: tuple[Spread, ...] = ()
+    findings: Mapping[str, Finding] = field(default_factory=dict)
+    judgements: Mapping[str, Judgement] = field(default_factory=dict)
 
-    @property
-    def verdict(self) -> Verdict:
-        """Verdict of the paper's own formulation."""
-        return self._verdict(self.paper, varied=self.paper is not None)
-
-    @property
-    def exact_verdict(self) -> Verdict:
-        """Verdict of the formulation ``exact``."""
-        if self.claim.formulations == "alike":
-            return self.verdict
-        return self._verdict(self.exact, varied=self.claim.formulations == "exact")
-
-    def _verdict(self, finding: Finding | None, *, varied: bool) -> Verdict:
-        if finding is None:
-            return "not tested"
-        bound = self.claim.bound
-        if finding.span is not None:
-            return _of_span(bound.full, bound.partly, finding.span)
-        tried = {bound.verdict(value) for _, values in self.spreads for value in values if varied}
-        found = bound.verdict(finding.value)
-        conditional = len(tried | {found}) > 1 and "reproduced" in tried | {found}
-        if conditional or (found == "reproduced" and self.claim.condition):
-            return "on a condition"
-        return found
-
-    def scaled(self, factor: float) -> Row:
-        """Return the row with our bounds scaled."""
-        return replace(self, claim=replace(self.claim, bound=self.claim.bound.scaled(factor)))
+    def verdict(self, formulation: str) -> Verdict:
+        """Return the verdict of a formulation."""
+        found = self.judgements.get("paper" if self.claim.formulations == "alike" else formulation)
+        return found.verdict if found else "not tested"
 
     @property
     def reason(self) -> str:
-        """Why the findings are what they are, on what condition, and what the assumptions do."""
-        claim, agreed = self.claim, self.verdict == self.exact_verdict == "reproduced"
+        """Reasons of the findings, the condition, and the choice that decides."""
+        claim = self.claim
+        agreed = all(self.verdict(name) == "reproduced" for name in IN[claim.formulations])
         parts = [claim.condition, "" if agreed else claim.reason]
-        parts += [f"{', '.join(f'{v:.3g}' for v in values)} with {about}" for about, values in self.spreads]
+        parts += [f"`{name}`: {found.decides}" for name, found in self.judgements.items() if found.decides]
+        margins = {found.margin for found in self.judgements.values() if found.margin}
+        if margins:
+            parts.append(f"margin {', '.join(f'{margin:.2g}' for margin in sorted(margins))}")
         return "; ".join(part for part in parts if part)
 
-    @property
-    def found(self) -> tuple[str, str]:
-        """The findings in words, that of ``exact`` with its verdict where it is another one."""
-        paper = self.paper.text if self.paper else ""
-        if self.claim.formulations == "alike" and self.paper:
-            return paper, _ALIKE
-        if self.exact is None:
-            return paper, ""
-        other = "" if self.exact_verdict == self.verdict else f" ({self.exact_verdict})"
-        return paper, self.exact.text + other
-
-
-def _of_span(full: tuple[float, float], partly: tuple[float, float], span: tuple[float, float]) -> Verdict:
-    """Return the verdict on numbers of which the paper does not say which one is meant."""
-    if full[0] < span[0] and span[1] < full[1]:
-        return "reproduced"
-    return "contradicted" if span[1] <= partly[0] or partly[1] <= span[0] else "not decidable"
+    def found(self, formulation: str) -> str:
+        """Return the finding of a formulation in words, with the range and the share of the ensemble."""
+        if self.claim.formulations == "alike" and formulation != "paper":
+            return _ALIKE if formulation == "exact" and self.findings else ""
+        if formulation not in self.findings:
+            return ""
+        text, judged = self.findings[formulation].text, self.judgements.get(formulation)
+        if judged is None:
+            return text
+        low, high = judged.span
+        spread = "" if math.isnan(low) else f"{low:.3g} to {high:.3g}, "
+        other = "" if formulation == "paper" else f"{judged.verdict}, "
+        return f"{text} ({other}{spread}{100.0 * judged.share:.0f} %)"
 
 
 def judge(runs: Runs, claims: Iterable[Claim]) -> list[Row]:
-    """Measure every claim in both formulations, and with other assumptions where they matter."""
+    """Measure every claim in its formulations, and judge it by the kept ensemble."""
     return [_row(runs, claim) for claim in claims]
+
+
+def kept_rows(claims: Iterable[Claim]) -> list[Row]:
+    """Return the table from the kept ensemble, without a run."""
+    return [
+        Row(
+            claim,
+            {name: Finding(found["text"], math.nan) for name, found in kept().get(claim.name, {}).items()},
+            _judged(claim),
+        )
+        for claim in claims
+    ]
 
 
 def _row(runs: Runs, claim: Claim) -> Row:
     if claim.measure is None:
         return Row(claim)
-    return Row(
-        claim,
-        None if claim.formulations == "exact" else claim.measure(Trial(runs, "paper")),
-        None if claim.formulations == "alike" else claim.measure(Trial(runs, "exact")),
-        tuple(_spread(runs, claim, about) for about in claim.varies),
-    )
+    findings = {name: _finding(claim, Trial(runs, name)) for name in IN[claim.formulations]}
+    return Row(claim, findings, _judged(claim))
 
 
-def _spread(runs: Runs, claim: Claim, about: Assumption) -> Spread:
+def _judged(claim: Claim) -> dict[str, Judgement]:
+    names = () if claim.measure is None else IN[claim.formulations]
+    return {name: found for name in names if (found := judgement(claim, name)) is not None}
+
+
+def _finding(claim: Claim, trial: Trial) -> Finding:
     assert claim.measure is not None
-    formulation = "exact" if claim.formulations == "exact" else "paper"
-    tried = (Trial(runs, formulation, {about.key: value}) for value in about.values)
-    return about, tuple(claim.measure(trial).value for trial in tried)
+    try:
+        return claim.measure(trial)
+    except EndedEarly:
+        return Finding(EARLY, math.nan)
 
 
 def as_json(rows: Iterable[Row]) -> list[dict[str, Any]]:
@@ -125,13 +114,14 @@ def as_json(rows: Iterable[Row]) -> list[dict[str, Any]]:
             "paper_says": row.claim.says,
             "domain": row.claim.domain,
             "quantity": row.claim.quantity,
-            "paper_formulation": row.found[0],
-            "exact_formulation": row.found[1],
+            "found": {name: finding.text for name, finding in row.findings.items()},
             "bound": str(row.claim.bound),
             "bound_chosen_by": row.claim.bound.by,
             "bound_chosen_on": row.claim.bound.since,
-            "verdict": row.verdict,
-            "exact_verdict": row.exact_verdict,
+            "verdict": row.verdict("paper"),
+            "exact_verdict": row.verdict("exact"),
+            "printed_verdict": row.verdict("printed"),
+            "share": {name: round(judged.share, 3) for name, judged in row.judgements.items()},
             "reason": row.reason,
         }
         for row in rows
@@ -142,8 +132,8 @@ _HEAD: Final = (
     "verdict",
     "the paper says (where)",
     "measured; domain",
-    "formulation `paper`",
-    "`exact`",
+    "`paper` (range, share)",
+    "`exact` (verdict, range, share)",
     "bound (whose, when); why",
 )
 
@@ -153,12 +143,14 @@ def as_markdown(rows: Iterable[Row]) -> str:
     lines = [f"| {' | '.join(_HEAD)} |", "|" + "---|" * len(_HEAD)]
     for row in rows:
         claim = row.claim
+        printed = row.found("printed")
         cells = (
-            row.verdict,
+            row.verdict("paper"),
             f"{claim.says} ({claim.where})",
             "; ".join(filter(None, (claim.quantity, claim.domain))),
-            *row.found,
-            "; ".join(filter(None, (str(claim.bound), row.reason))),
+            row.found("paper"),
+            row.found("exact"),
+            "; ".join(filter(None, (str(claim.bound), printed and f"`printed`: {printed}", row.reason))),
         )
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
@@ -170,18 +162,16 @@ def as_text(rows: Iterable[Row]) -> str:
 
 
 def _block(row: Row) -> str:
-    paper, exact = row.found
     claim = row.claim
     number = f"{claim.quantity}; {claim.domain}" if claim.quantity else ""
     parts = (
         ("number", number),
-        ("paper", paper),
-        ("exact", exact),
+        *((name, row.found(name)) for name in ("printed", "paper", "exact")),
         ("bound", str(claim.bound)),
         ("why", row.reason),
     )
-    lines = [f"{row.verdict.upper():14s} {claim.says}  [{claim.where}]"]
-    lines += [f"  {name:6s} {text}" for name, text in parts if text]
+    lines = [f"{row.verdict('paper').upper():14s} {claim.says}  [{claim.where}]"]
+    lines += [f"  {name:7s} {text}" for name, text in parts if text]
     return "\n".join(
-        textwrap.fill(line, _WIDTH, subsequent_indent=" " * 9, break_long_words=False) for line in lines
+        textwrap.fill(line, _WIDTH, subsequent_indent=" " * 10, break_long_words=False) for line in lines
     )
