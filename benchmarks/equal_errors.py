@@ -32,8 +32,8 @@ from benchmarks.peers import EVERY, PART, with_exudyn
 from benchmarks.vsv_case import RTOL, one
 from tribodyn.core import toml
 from tribodyn.integrate import integrate
-from tribodyn.mechanisms.general.system import MechanismSystem
-from tribodyn.mechanisms.general.variables import observed
+from tribodyn.mechanism.system import MechanismSystem
+from tribodyn.mechanism.mechanism_variables import observed
 
 FloatArray = NDArray[np.float64]
 Row = dict[str, Any]
@@ -81,7 +81,7 @@ def case(contact: str, cycles: float) -> Any:
     """Return ``vsv-free`` over some cycles, with the rough contact of its surfaces or a point contact."""
     if contact == "surface":
         return td.load_case("vsv-free").replace({"run.cycles": cycles})
-    folder = files("tribodyn.mechanisms.general") / "built_in"
+    folder = files("tribodyn.mechanism") / "built_in"
     table = toml.parse((folder / "vsv-free.toml").read_text(encoding="utf-8"))
     clearance = table["joints"]["trunnion"]["clearance"]
     for key in ("axial_upper", "flange"):

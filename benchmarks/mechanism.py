@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 import tribodyn as td
 from tribodyn.integrate import integrate
-from tribodyn.mechanisms.general.system import MechanismSystem
-from tribodyn.mechanisms.general.variables import observed
+from tribodyn.mechanism.system import MechanismSystem
+from tribodyn.mechanism.mechanism_variables import observed
 
 FloatArray = NDArray[np.float64]
 

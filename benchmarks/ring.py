@@ -38,7 +38,7 @@ def case(n: int, cycles: float = 1.0) -> Any:
     import tribodyn as td
     from tribodyn.core import toml
 
-    folder = files("tribodyn.mechanisms.general") / "built_in"
+    folder = files("tribodyn.mechanism") / "built_in"
     table = toml.parse((folder / "vsv-free.toml").read_text(encoding="utf-8"))
     for name in ("case", "title", "outputs"):
         table.pop(name)

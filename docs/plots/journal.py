@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 import tribodyn as td
 from tribodyn.integrate.binding import kernel_types, machine_code
-from tribodyn.mechanisms.journal.case import JournalCase
-from tribodyn.mechanisms.journal.stribeck import stribeck
-from tribodyn.mechanisms.journal.system import JournalSystem, journal_of
+from tribodyn.presets.journal.case import JournalCase
+from tribodyn.presets.journal.stribeck import stribeck
+from tribodyn.presets.journal.system import JournalSystem, journal_of
 from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"

@@ -12,9 +12,9 @@ from tables.markdown import BAR, Lines, Table, head, row
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import ANY_NAME, groups_of
 from tribodyn.mechanisms.catalogue import kinds, load_case
-from tribodyn.mechanisms.general.elements import ELEMENTS
-from tribodyn.mechanisms.general.joints import JOINTS
-from tribodyn.mechanisms.general.joints.base import words_of
+from tribodyn.mechanism.elements import ELEMENTS
+from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanism.joints.joint_type import words_of
 
 
 def assumed(kind: str) -> Lines:

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
     from tribodyn.cases.materials import MATERIALS as materials
     from tribodyn.mechanisms.catalogue import load_case
-    from tribodyn.mechanisms.general.builder import Mechanism
-    from tribodyn.mechanisms.journal.curves import stribeck
+    from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+    from tribodyn.presets.journal.curves import stribeck
     from tribodyn.mechanisms.results import read
     from tribodyn.simulation import check, simulate
 
@@ -36,13 +36,13 @@ __all__ = [
 ]
 
 _HOME = {
-    "Mechanism": "tribodyn.mechanisms.general.builder:Mechanism",
+    "Mechanism": "tribodyn.mechanism.builder.mechanism_builder:Mechanism",
     "check": "tribodyn.simulation:check",
     "load_case": "tribodyn.mechanisms.catalogue:load_case",
     "materials": "tribodyn.cases.materials:MATERIALS",
     "read": "tribodyn.mechanisms.results:read",
     "simulate": "tribodyn.simulation:simulate",
-    "stribeck": "tribodyn.mechanisms.journal.curves:stribeck",
+    "stribeck": "tribodyn.presets.journal.curves:stribeck",
 }
 _GIVING_RESULTS = ("read", "simulate")
 

@@ -12,7 +12,7 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 RUN = {"duration": "20 ms", "output_interval": "1 ms"}
 G = 9.81

@@ -23,7 +23,7 @@ from tribodyn.kernels.mechanism.data import REPORTS, SLOPES, CouplingNow
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.lubrication import Film, FilmGrid, Roughness, stacked_data, stacked_memory
 from tribodyn.mechanisms import results
-from tribodyn.mechanisms.journal.system import journal_of
+from tribodyn.presets.journal.system import journal_of
 
 SIZE = (0.01, 20e-6, 6e-3, 20e-3)
 FILMS = {

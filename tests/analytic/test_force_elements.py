@@ -14,7 +14,7 @@ import tribodyn as td
 from tribodyn.contact import DAMPING_FACTORS
 from tribodyn.core.errors import InputError
 from tribodyn.friction import FrictionLimit
-from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 G = 9.81
 BALL = {"mass": "1 kg", "inertia": "1e-3, 1e-3, 1e-3 kg m^2"}

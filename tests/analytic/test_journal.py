@@ -15,9 +15,9 @@ from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
 from tribodyn.joints.bushing import joint_jacobian, joint_wrench
 from tribodyn.kernels.mechanism.data import TURNING
-from tribodyn.mechanisms.journal.equilibrium import equilibrium
-from tribodyn.mechanisms.journal.parameters import Loads
-from tribodyn.mechanisms.journal.system import JournalSystem, journal_of
+from tribodyn.presets.journal.equilibrium import equilibrium
+from tribodyn.presets.journal.parameters import Loads
+from tribodyn.presets.journal.system import JournalSystem, journal_of
 
 TIGHT = {
     "solver.rtol": 1e-8,

@@ -17,7 +17,7 @@ from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
 from tribodyn.kernels.mechanism.data import VELOCITY
-from tribodyn.mechanisms.journal.system import JournalSystem, journal_of
+from tribodyn.presets.journal.system import JournalSystem, journal_of
 
 MakeJoint = Callable[..., BushingJoint]
 MASS = 0.253

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.special import ellipk
-from tests.unit.mechanisms.general.drawings import (
+from tests.unit.mechanism.drawings import (
     body,
     bricard,
     changed,
@@ -20,9 +20,9 @@ from tests.unit.mechanisms.general.drawings import (
 )
 
 from tribodyn.cases.signals import AngleSignal, ForceMap, TorqueSignal
-from tribodyn.mechanisms.general.actions import DriveKeys, LoadKeys
-from tribodyn.mechanisms.general.model import Model
-from tribodyn.mechanisms.general.parts import SpringKeys
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.model.parts import SpringKeys
 
 RTOL = 1e-8
 TIMES = np.linspace(0.0, 2.0, 41)

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.unit.mechanisms.general.drawings import Run, chain, run, slider_crank, with_clearance
+from tests.unit.mechanism.drawings import Run, chain, run, slider_crank, with_clearance
 
 from tribodyn.contact import SurfacePair, law
 from tribodyn.joints.clearances import Clearance, table_of
-from tribodyn.mechanisms.general.assembly import assemble
-from tribodyn.mechanisms.general.model import Model
+from tribodyn.mechanism.assembly.assembly import assemble
+from tribodyn.mechanism.assembly.parts_by_number import Model
 
 TURN = 0.012
 """One turn of the crank at 5000 rpm [s]."""

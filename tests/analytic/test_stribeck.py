@@ -12,9 +12,9 @@ import pytest
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film, FilmGrid, Roughness
-from tribodyn.mechanisms.journal.equilibrium import equilibrium
-from tribodyn.mechanisms.journal.parameters import Journal, Loads
-from tribodyn.mechanisms.journal.stribeck import Stribeck, stribeck
+from tribodyn.presets.journal.equilibrium import equilibrium
+from tribodyn.presets.journal.parameters import Journal, Loads
+from tribodyn.presets.journal.stribeck import Stribeck, stribeck
 
 FRICTION = 0.1
 SPEEDS = np.geomspace(0.1, 3e4, 45)

@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 TYPES: dict[str, dict[str, Any]] = {
     "fixed": {},

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 WEIGHT = 9.81 * 2.0
 """Of the shaft [N]."""

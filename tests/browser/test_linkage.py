@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.unit.mechanisms.general.made_up import N, result
+from tests.unit.mechanism.made_up import N, result
 
 from tribodyn.cases.case import with_entries
-from tribodyn.mechanisms.general.skeleton import case_of
+from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.report import write
 
 MAIN = {f"joints.main.clearance.{key}": value for key, value in {"radial": "20 um", "length": "5 mm"}.items()}

@@ -13,8 +13,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.mechanisms.general.builder import Mechanism
-from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.mechanism_case import MechanismCase
 
 Chance = np.random.Generator
 Keys = dict[str, Any]

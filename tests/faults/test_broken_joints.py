@@ -6,11 +6,11 @@ import re
 
 import pytest
 import xarray as xr
-from tests.unit.mechanisms.general.slider_crank import IDEAL, parsed
+from tests.unit.mechanism.slider_crank import IDEAL, parsed
 
 import tribodyn as td
-from tribodyn.mechanisms.general.builder import Mechanism
-from tribodyn.mechanisms.general.case import MechanismCase
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.mechanism_case import MechanismCase
 
 SIZES = {"radius": "6 mm", "radial": "50 um", "length": "20 mm", "nodes_around": 24, "nodes_along": 4}
 TIME = r"stopped at t = (\S+) s: "

@@ -22,7 +22,7 @@ from tribodyn.core import toml
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 FEW, PARTS, EACH = 15, 10, 500
 Maker = Callable[[Path, random.Random], None]

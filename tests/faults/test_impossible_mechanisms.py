@@ -17,10 +17,10 @@ from tests.faults.test_random_mechanisms import BEYOND
 from tests.faults.test_random_physics import chunks
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.general import decompositions
-from tribodyn.mechanisms.general.assembly import assemble
-from tribodyn.mechanisms.general.model import model_of
-from tribodyn.mechanisms.general.surfaces import clearances_of
+from tribodyn.mechanism.assembly import decompositions
+from tribodyn.mechanism.assembly.assembly import assemble
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.simulation import simulate
 
 PATIENCE = 60.0

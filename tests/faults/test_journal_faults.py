@@ -15,8 +15,8 @@ from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film
-from tribodyn.mechanisms.journal.equilibrium import equilibrium
-from tribodyn.mechanisms.journal.parameters import Journal, Loads
+from tribodyn.presets.journal.equilibrium import equilibrium
+from tribodyn.presets.journal.parameters import Journal, Loads
 
 REFUSED = [
     ("journal-oil", "film.viscosity", "0 Pa s", "> 0"),

@@ -8,13 +8,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from tests.unit.mechanisms.general.slider_crank import FILE, IDEAL, parsed
+from tests.unit.mechanism.slider_crank import FILE, IDEAL, parsed
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.general.builder import Mechanism
-from tribodyn.mechanisms.general.joints import JOINTS
-from tribodyn.mechanisms.general.system import MechanismSystem
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanism.system import MechanismSystem
 
 REFUSED = tomllib.loads(Path(__file__).with_name("refused_mechanisms.toml").read_text(encoding="utf-8"))
 REAL = [name for name, kind in JOINTS.items() if kind.SHAPE]

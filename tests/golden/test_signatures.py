@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
-from tribodyn.mechanisms.general import methods
-from tribodyn.mechanisms.general.arguments import signature_of_case
+from tribodyn.mechanism.builder import methods
+from tribodyn.mechanism.builder.arguments import signature_of_case
 
 STUB: Final = Path(methods.__file__).with_name("signatures.pyi")
 HEAD: Final = '''"""Types of the builder's methods; ``make golden`` writes them from the keys of a case."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.unit.mechanisms.general.drawings import (
+from tests.unit.mechanism.drawings import (
     Run,
     bricard,
     governor,

@@ -10,7 +10,7 @@ import pytest
 import tribodyn as td
 from tribodyn.joints.shapes.cylinder import FEWEST_ACROSS, Cylinder
 from tribodyn.kernels.lookup import pressure_and_damping
-from tribodyn.mechanisms.general.surfaces import clearances_of
+from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 
 LOADED = 0.1
 """Force [N] from which a relative error means anything; the face of the vane carries a few."""

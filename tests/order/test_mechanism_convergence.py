@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from tests.unit.mechanisms.general.drawings import bricard, run, spatial_slider_crank
+from tests.unit.mechanism.drawings import bricard, run, spatial_slider_crank
 
-from tribodyn.mechanisms.general.model import Model
+from tribodyn.mechanism.assembly.parts_by_number import Model
 
 RTOL = np.array([1e-4, 1e-5, 1e-6, 1e-7, 1e-8])
 

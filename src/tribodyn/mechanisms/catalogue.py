@@ -27,17 +27,17 @@ from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.base import MechanismDescriptor
 
 FOLDERS: Final = {
-    "mechanism": "general",
-    "journal": "journal",
+    "mechanism": "tribodyn.mechanism",
+    "journal": "tribodyn.presets.journal",
 }
-"""Folders beside this file, whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases."""
+"""Packages whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases."""
 _GROUP: Final = "tribodyn.mechanisms"
 
 
 @cache
 def _described(kind: str) -> MechanismDescriptor:
     """Return a mechanism of this package."""
-    descriptor = importlib.import_module(f"tribodyn.mechanisms.{FOLDERS[kind]}.descriptor")
+    descriptor = importlib.import_module(f"{FOLDERS[kind]}.descriptor")
     return cast(MechanismDescriptor, descriptor.MECHANISM)
 
 

@@ -54,7 +54,7 @@ def test_joints_whose_wear_rate_nobody_chose(changes: dict[str, str], joints: tu
 
 
 def test_each_pair_is_asked_for_its_own() -> None:
-    text = (files("tribodyn.mechanisms.general.built_in") / "slider-crank.toml").read_text(encoding="utf-8")
+    text = (files("tribodyn.mechanism.built_in") / "slider-crank.toml").read_text(encoding="utf-8")
     text += '\n[pairs.dry.surfaces.bushing]\nmaterial = "ptfe-liner"\n'
     case = parse_case(text, "test").replace({"joints.wrist.clearance.pair": "dry"})
     assert case.assumed_wear() == ()

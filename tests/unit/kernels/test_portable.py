@@ -9,7 +9,7 @@ from pathlib import Path
 
 import mebdf
 import tribodyn
-from tribodyn.mechanisms.general import elements
+from tribodyn.mechanism import elements
 
 SOLVER, PACKAGE = Path(mebdf.__file__).parent, Path(tribodyn.__file__).parent
 KERNELS = [*SOLVER.glob("kernels/**/*.py"), *PACKAGE.glob("kernels/**/*.py")]

@@ -19,7 +19,7 @@ RUN = """
 import numpy as np, tribodyn as td
 from tribodyn.cases.load import parse
 from tribodyn.mechanisms.catalogue import kinds
-from tribodyn.mechanisms.general.elements import ELEMENTS
+from tribodyn.mechanism.elements import ELEMENTS
 added = next(kind for kind in ELEMENTS if kind.METHOD == "{method}")
 result = td.simulate(parse(added.EXAMPLE, "example", kinds()))
 assert callable(td.Mechanism().{method})
@@ -50,7 +50,7 @@ assert np.allclose(result["reaction_force_global"].sel(axis="z").values, 18.0, r
 
 SHAPE = """
 import numpy as np, tribodyn as td
-from tribodyn.mechanisms.general.model import model_of
+from tribodyn.mechanism.assembly.parts_by_number import model_of
 found = td.Mechanism("Press", gravity="0, 0, -9.81 m/s^2", run={"duration": "0.2 ms"})
 found.body("pin", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
 found.revolute("bore", "ground", "pin", point="0, 0, 0 mm", axis=[0, 1, 0], second_axis=[0, 0, 1])

@@ -26,9 +26,9 @@ from tribodyn.mechanisms.checks import (
     ROUGH_LIMIT,
     instant,
 )
-from tribodyn.mechanisms.general import checks as general_checks
-from tribodyn.mechanisms.general.contacts import Contacts
-from tribodyn.mechanisms.journal import checks as journal_checks
+from tribodyn.mechanism.results import mechanism_checks as general_checks
+from tribodyn.mechanism.results.contacts import Contacts
+from tribodyn.presets.journal import checks as journal_checks
 from tribodyn.papers.cheng_2022.reduced import checks
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 

@@ -47,7 +47,7 @@ def test_a_case_imports_the_mechanism_of_its_own_kind_alone() -> None:
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     imported = set(done.stdout.split())
     assert "tribodyn.papers.cheng_2022.reduced.case" in imported
-    assert not imported & {"tribodyn.mechanisms.general", "tribodyn.mechanisms.journal", "scipy.optimize"}
+    assert not imported & {"tribodyn.mechanism", "tribodyn.presets.journal", "scipy.optimize"}
 
 
 def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
@@ -55,7 +55,7 @@ def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
     wrong = {
         "absent": "falling_disc.nowhere:MECHANISM",
         "none": "falling_disc.case:DiscCase",
-        "taken": "tribodyn.mechanisms.journal.descriptor:MECHANISM",
+        "taken": "tribodyn.presets.journal.descriptor:MECHANISM",
     }
     register(tmp_path, wrong)
     done = subprocess.run(

@@ -10,7 +10,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
-from tribodyn.mechanisms.general.builder import Mechanism
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms.results import summarise
 from tribodyn.simulation import check
 

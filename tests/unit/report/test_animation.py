@@ -15,7 +15,7 @@ from PIL import Image
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.general.skeleton import rotated
+from tribodyn.mechanism.assembly.skeleton import rotated
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from PIL import Image
-from tests.unit.mechanisms.general.made_up import result as linkage
+from tests.unit.mechanism.made_up import result as linkage
 
 from tribodyn.mechanisms.results import known, summarise
 from tribodyn.papers.cheng_2022.reduced.key_results import KEY_RESULTS

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.mechanisms.general.readings import lengths
+from tribodyn.mechanism.results.readings import lengths
 from tribodyn.results.reading import column, of_part, reading_once
 
 

@@ -215,7 +215,7 @@ def processor_time(case: Case) -> float:
 
 def test_an_oil_film_takes_a_few_times_the_time_of_a_dry_joint(tmp_path: Path) -> None:
     """The costs page gives the factors; here they hold within 1.7."""
-    oiled = Path(str(files("tribodyn.mechanisms.general").joinpath("built_in/slider-crank-oil.toml")))
+    oiled = Path(str(files("tribodyn.mechanism").joinpath("built_in/slider-crank-oil.toml")))
     film = '[joints.big-end.film]\nviscosity = "0.01 Pa s"\n'
     text = oiled.read_text(encoding="utf-8")
     assert film in text

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.mechanisms.general import system
+from tribodyn.mechanism import system
 from tribodyn.simulation import compilation
 
 CASE = td.load_case("slider-crank").replace({"run.cycles": 1})

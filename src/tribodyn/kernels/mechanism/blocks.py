@@ -5,7 +5,7 @@ and column j, and a column is two fours of numbers, of which the last two are ze
 and solutions. The operations stand in lists, so that every mechanism is served by the same few loops, whose
 cost is the number of blocks that fill the factors: linear in bodies for chains and stars. There is pivoting
 inside the blocks on the diagonal, where these are not positive definite, and none between them;
-``mechanisms/general/ordering.py`` says why none is needed.
+``mechanism/assembly/ordering.py`` says why none is needed.
 """
 
 from __future__ import annotations

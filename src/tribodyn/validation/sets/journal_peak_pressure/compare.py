@@ -14,10 +14,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.lubrication import FilmState, film_state
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.journal.case import JournalCase
-from tribodyn.mechanisms.journal.equilibrium import equilibrium
-from tribodyn.mechanisms.journal.parameters import Journal
-from tribodyn.mechanisms.journal.system import journal_of
+from tribodyn.presets.journal.case import JournalCase
+from tribodyn.presets.journal.equilibrium import equilibrium
+from tribodyn.presets.journal.parameters import Journal
+from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 from tribodyn.validation.vary import varied

@@ -11,9 +11,9 @@ import numpy as np
 from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.journal.case import JournalCase
-from tribodyn.mechanisms.journal.stribeck import stribeck
-from tribodyn.mechanisms.journal.system import journal_of
+from tribodyn.presets.journal.case import JournalCase
+from tribodyn.presets.journal.stribeck import stribeck
+from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 from tribodyn.validation.vary import varied

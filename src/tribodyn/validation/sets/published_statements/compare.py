@@ -11,9 +11,9 @@ import numpy as np
 from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.journal.case import JournalCase
-from tribodyn.mechanisms.journal.equilibrium import equilibrium
-from tribodyn.mechanisms.journal.system import journal_of
+from tribodyn.presets.journal.case import JournalCase
+from tribodyn.presets.journal.equilibrium import equilibrium
+from tribodyn.presets.journal.system import journal_of
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet

@@ -1,0 +1,1 @@
+"""Analyses of a mechanism beside the integration over time."""

@@ -1,0 +1,57 @@
+"""Analyses of a mechanism beside the integration over time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import Final
+
+from tribodyn.core.problem import Problem
+from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.analyses.kinematics import follow_drives, require_motion
+from tribodyn.mechanism.analyses.statics import find_equilibria, require_equilibria
+from tribodyn.mechanism.analyses.vibrations import find_rest, require_freedom
+
+NOTES: Final[dict[str, tuple[str, ...]]] = {
+    "dynamic": (),
+    "static": (
+        "static analysis: equilibria at positions along the drives; impacts, vibration and damping are left "
+        "out",
+    ),
+    "kinematic": (
+        "kinematic analysis: all joints are ideal, freedoms that drives leave are at rest, and forces are "
+        "those that the motion needs",
+    ),
+    "vibrations": (
+        "vibration analysis: drives and loads are held at each position, bodies are at rest; friction, loads "
+        "against the motion and damping of impacts are left out",
+    ),
+}
+"""Effects that each analysis leaves out, in words."""
+
+
+def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -> Problem:
+    """Return a problem that is solved by an analysis instead of an integration.
+
+    Parameters
+    ----------
+    problem, assembly
+        The mechanism.
+    analysis
+        ``static``, ``kinematic`` or ``vibrations``.
+    turn
+        When the drives turn back [s]; infinite where they do not.
+
+    Raises
+    ------
+    InputError
+        The mechanism does not allow this analysis.
+    """
+    if analysis == "kinematic":
+        require_motion(assembly)
+        return replace(problem, solved=partial(follow_drives, assembly, problem))
+    if analysis == "vibrations":
+        require_freedom(assembly)
+        return replace(problem, solved=partial(find_rest, assembly, problem))
+    require_equilibria(assembly)
+    return replace(problem, solved=partial(find_equilibria, assembly, turn, problem))

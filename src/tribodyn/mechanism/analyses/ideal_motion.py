@@ -1,0 +1,214 @@
+"""Motion of the ideal counterpart of a mechanism: every joint ideal, no backlash, the same drives.
+
+Drives and joints determine it without forces, position by position. Where they leave freedoms, an output
+may depend on these; then there is no ideal value that it could be compared with.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mechanism.bodies import collect, place
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
+from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.passage import closes, lead, placed
+from tribodyn.mechanism.assembly.decompositions import DEPENDENT
+from tribodyn.mechanism.assembly.output_values import Motion, Output, rotations
+from tribodyn.mechanism.assembly.positions import DrivePath
+
+_STEP: Final = 1.0e-4
+"""Displacement along a freedom by which outputs are tried, in units of the size or radians."""
+_PLACES: Final = 5
+"""Number of times at which they are tried."""
+
+
+@dataclass(frozen=True)
+class IdealOutputs:
+    """Outputs of the ideal counterpart.
+
+    Attributes
+    ----------
+    components
+        Of each output, shape (n_t, m) each; NaN where drives do not determine it.
+    notes
+        Why an output has no ideal value, in words.
+    """
+
+    components: tuple[FloatArray, ...]
+    notes: tuple[str, ...]
+
+
+def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath) -> IdealOutputs:
+    """Return the outputs as they are with ideal joints.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism, without findings.
+    outputs
+        To be evaluated.
+    path
+        The times, n_t of them.
+    """
+    n_t = path.times.size
+    unknown = np.full((n_t, 1), np.nan)
+    if assembly.strain:
+        reason = "ideal joints cannot follow the drives, so outputs have no ideal value and no error"
+        return IdealOutputs((unknown,) * len(outputs), (reason,))
+    times, where = np.unique(path.of_drives, return_inverse=True)
+    mechanism = IdealMechanism(assembly)
+    states = mechanism.follow(times)
+    free = mechanism.leaves_free(outputs, times, states)
+    known = where < len(states)
+    motion = motion_of(states[where[known]], path.forward[known])
+    found = []
+    for output, is_free in zip(outputs, free, strict=True):
+        components = output.components(motion)
+        whole = np.full((n_t, components.shape[1]), np.nan)
+        if not is_free:
+            whole[known] = components
+        found.append(whole)
+    notes = [
+        f"output {output.name} depends on a freedom that drives and ideal joints leave: it has no ideal "
+        "value and no error"
+        for output, is_free in zip(outputs, free, strict=True)
+        if is_free
+    ]
+    if not known.all():
+        notes.append(unreached(times, states))
+    return IdealOutputs(tuple(found), tuple(notes))
+
+
+def compared(
+    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, motion: Motion
+) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
+    """Return the columns of outputs, each of shape (n_t, n_outputs), and notes.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism, without findings.
+    outputs
+        At least one.
+    path
+        Times of the motion, n_t of them.
+    motion
+        Of the mechanism with clearance.
+    """
+    ideal = ideal_outputs(assembly, outputs, path)
+    real = [output.components(motion) for output in outputs]
+    pairs = list(zip(outputs, real, ideal.components, strict=True))
+    return {
+        "output_value": np.stack([output.value(found) for output, found, _ in pairs], axis=1),
+        "output_ideal": np.stack([output.value(at_ideal) for output, _, at_ideal in pairs], axis=1),
+        "output_error": np.stack([output.error(*both) for output, *both in pairs], axis=1),
+    }, ideal.notes
+
+
+class IdealMechanism:
+    """The ideal counterpart of a mechanism, which is led through given times.
+
+    Attributes
+    ----------
+    system
+        With the bodies where they were led last.
+    rank
+        Number of its independent constraints.
+    """
+
+    def __init__(self, assembly: Assembly) -> None:
+        self.system = placed(System(assembly.model.counterpart.without_play), assembly)
+        self.rank = self.system.independence()[0]
+        self.system.set_rank(self.rank)
+
+    def follow(self, times: FloatArray) -> FloatArray:
+        """Return the states at rising times [s], as far as the joints close, shape (n, 13 n_bodies).
+
+        Angular velocities are in global axes.
+        """
+        system, n_rows = self.system, len(self.system.rows)
+        states, matrix = np.zeros((times.size, N_STATES * system.n)), np.zeros((n_rows, n_rows))
+        k, led = system.follow(times, 0, matrix, states), -1
+        while led < k < times.size and self._over(times, k, states):
+            k, led = system.follow(times, k, matrix, states), k
+        return states[:k]
+
+    def leaves_free(self, outputs: Sequence[Output], times: FloatArray, states: FloatArray) -> list[bool]:
+        """Return the outputs that drives leave free, tried at some of the positions that were reached."""
+        tried = np.unique(np.linspace(0, max(len(states) - 1, 0), _PLACES).astype(int))
+        free = np.any([self._free(outputs, times[i], states[i]) for i in tried if i < len(states)], axis=0)
+        return [bool(one) for one in np.broadcast_to(free, len(outputs))]
+
+    def put(self, t: float, state: FloatArray) -> None:
+        """Put the bodies into a state at a time [s]."""
+        place(state, self.system.now.bodies)
+        self.system.at(float(t))
+
+    def _over(self, times: FloatArray, k: int, states: FloatArray) -> bool:
+        """Lead the bodies to a time that they cannot reach at once; return whether joints close there."""
+        if k > 0:
+            self.put(times[k - 1], states[k - 1])
+        return lead(self.system, float(times[k]), lambda: closes(self.system)) and closes(self.system)
+
+    def _free(self, outputs: Sequence[Output], t: float, state: FloatArray) -> NDArray[np.bool_]:
+        """Return the outputs that change along a freedom, each tried in both directions."""
+        self.put(t, state)
+        system, found = self.system, np.zeros(len(outputs), dtype=bool)
+        units = np.tile(np.repeat([system.size, 1.0], 3), system.n)
+        scales = np.array([1.0 if output.as_place().unit == "rad" else system.size for output in outputs])
+        kept = system.position()
+        for freedom in system.freedoms(self.rank):
+            ends = []
+            for side in (1.0, -1.0):
+                system.step(side * _STEP * units * freedom)
+                collect(system.now.bodies, state := np.zeros_like(state))
+                ends.append([output.as_place().components(motion_of(state[None])) for output in outputs])
+                system.restore(kept)
+            changes = [np.max(np.abs(a - b)) / (2.0 * _STEP) for a, b in zip(*ends, strict=True)]
+            found |= np.array(changes) > DEPENDENT * scales
+        return found
+
+
+def motion_of(states: FloatArray, forward: FloatArray | float = 1.0) -> Motion:
+    """Return states as a motion.
+
+    Parameters
+    ----------
+    states
+        Of the bodies, angular velocities in global axes, shape (n_t, 13 n_bodies).
+    forward
+        Direction of the motion, 1 or −1, shape (n_t,) or one number.
+    """
+    parts = states.reshape(len(states), states.shape[1] // N_STATES, N_STATES)
+    sign = np.broadcast_to(forward, len(states))[:, None, None]
+    position, orientation, velocity, spin = np.split(parts, [ORIENTATION, VELOCITY, TURNING], axis=2)
+    return Motion(position, orientation, sign * velocity, sign * spin)
+
+
+def in_body_axes(states: FloatArray) -> FloatArray:
+    """Return states whose angular velocities are in global axes as problems have them: in those of bodies."""
+    return _turned(states, inverse=True)
+
+
+def in_global_axes(states: FloatArray) -> FloatArray:
+    """Return states of problems with angular velocities in global axes."""
+    return _turned(states, inverse=False)
+
+
+def _turned(states: FloatArray, *, inverse: bool) -> FloatArray:
+    found = states.reshape(-1, N_STATES).copy()
+    turn = rotations(found[:, ORIENTATION:VELOCITY])
+    found[:, TURNING:] = turn.apply(found[:, TURNING:], inverse=inverse)
+    return np.asarray(found.reshape(states.shape))
+
+
+def unreached(times: FloatArray, states: FloatArray) -> str:
+    """Return after which time joints do not close, in words."""
+    return f"ideal joints cannot follow the drives after t = {times[max(len(states) - 1, 0)]:.4g} s"

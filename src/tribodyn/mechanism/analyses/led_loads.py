@@ -1,0 +1,168 @@
+"""Loads on bodies whose drives are led along, with the freedoms that springs and weights hold.
+
+Where the ideal counterpart has freedoms, its linear equations near by say how stiff they are: the forces of
+springs, and of all loads as the bodies turn. Velocities along them are those at which no spring changes its
+length; inertia forces along them are left out.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
+from tribodyn.kernels.mechanism.bodies import collect, place
+from tribodyn.kernels.mechanism.data import MechanismData
+from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.passage import closes, placed
+from tribodyn.mechanism.assembly.equilibrium import JointLoads
+from tribodyn.mechanism.analyses.linearised import LinearEquations
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.assembly.positions import held, undamped
+from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
+
+SLIP: Final = "slip_velocity"
+"""Name of the parameter of laws at which their friction is developed."""
+_FLAT: Final = 1.0e-9
+"""Stiffness over the largest one that counts as zero."""
+
+
+def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
+    """Return a mechanism whose friction is developed from a slip velocity on [m/s], in its data.
+
+    Positions along drives have no time scale: friction has its direction from the motion, and its size not.
+    """
+    surfaces, couplings = data.contact.surfaces.copy(), data.parts.couplings.copy()
+    for records in (surfaces, couplings):
+        records["slip_velocity"] = np.minimum(records["slip_velocity"], slip)
+    number = model.first_leg
+    for element in model.elements:
+        for equation in element.equations:
+            names = [] if equation.law is None else list(equation.law.parameters)
+            if SLIP in names:
+                values = couplings["parameters"]["values"][
+                    number : number + len(equation.legs), names.index(SLIP)
+                ]
+                np.minimum(values, slip, out=values)
+            number += len(equation.legs)
+    parts = data.parts._replace(couplings=couplings)
+    return data._replace(contact=data.contact._replace(surfaces=surfaces), parts=parts)
+
+
+class LedLoads(JointLoads):
+    """The loads on bodies whose drives are led along, by compiled solutions.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism.
+    ideal_rank
+        Number of independent constraints of its ideal counterpart.
+    slip
+        Slip velocity at which friction is developed [m/s], where that of a joint is not less.
+    """
+
+    def __init__(self, assembly: Assembly, ideal_rank: int, slip: float) -> None:
+        ideal = placed(System(assembly.model.counterpart), assembly)
+        super().__init__(assembly, ideal, over_loads=True)
+        self.data = developed(undamped(self.data), assembly.model, slip)
+        self._direction = 1.0
+        self._centred: LinearEquations | None = None
+        for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):
+            system.set_rank(rank)
+            system.known_rank = rank
+
+    def at(
+        self,
+        t: float,
+        state: FloatArray,
+        direction: float,
+        centred: LinearEquations | None = None,
+        marks: FloatArray | None = None,
+    ) -> None:
+        """Put the bodies elsewhere, with the drives at another time [s], running forward (1) or back (−1).
+
+        ``centred`` are the equations of the ideal counterpart near by, with the freedoms that drives leave,
+        and ``marks`` the angles of its couplings [rad], whole turns included.
+        """
+        self.ideal.t = self.real.t = t
+        if marks is not None:
+            for now in (self.ideal.now, self.real.now, self.memory.now):
+                now.couplings["angle_mark"] = marks
+        self.state[:], self._direction, self.largest = state, direction, 0.0
+        self._centred, self.waits = centred, centred is not None
+
+    def hold(self, times: FloatArray) -> None:
+        """Hold drives and loads at some times [s] as they are then."""
+        self.data = held(self.data, times)
+        for system in (self.ideal, self.real):
+            system.data = held(system.data, times)
+
+    def close(self) -> None:
+        """Close the ideal joints of the mechanism."""
+        closes(self.real)
+
+    def move(self, step: FloatArray) -> None:
+        """Displace the bodies by a step (m,); along freedoms ideal joints stay closed."""
+        self._before = self.state.copy()
+        super().move(step)
+        if self.carried:
+            place(self.state, self.real.now.bodies)
+            self.real.refresh()
+            closes(self.real)
+            self.real.close()
+            collect(self.real.now.bodies, self.state)
+
+    def undo(self, step: FloatArray) -> None:
+        """Take back the last step (m,)."""
+        self.way -= step
+        self.travelled -= step[step.size - self.carried :]
+        self.state[:] = self._before
+
+    def begin_to_move(self) -> None:
+        """Fill the velocities of the ideal counterpart."""
+        self.ideal.move_with_drives(self._direction)
+
+    def divided(self, free: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the freedoms that forces hold, with their stiffness in ``turning``, and all others."""
+        linear = self._centred
+        if linear is None or free.size == 0:
+            return super().divided(free)
+        moving = dense.product(self.root, free)
+        coefficients = np.linalg.solve(self.root, linear.motions).T @ free
+        whole = coefficients.T @ linear.stiffness @ coefficients
+        values, vectors = dense.eigh(0.5 * (whole + whole.T))
+        flat = max(_FLAT * float(np.max(np.abs(values))), self._rounding(linear, moving))
+        stiff = np.abs(values) > flat
+        by_springs = self._by_springs(moving)
+        self._lock(moving, by_springs)
+        # Contact comes first: without it nothing says how its forces turn with the bodies.
+        stiff &= not self.waits
+        self.turning = vectors[:, stiff].T @ (whole - by_springs) @ vectors[:, stiff]
+        return dense.product(free, vectors[:, stiff]), dense.product(free, vectors[:, ~stiff])
+
+    def _by_springs(self, moving: FloatArray) -> FloatArray:
+        """Return the stiffness of all but contact over motions (6 n, m), positions as they are, (m, m)."""
+        self._evaluate(self.velocity)
+        return self.held_by(moving, ShaftMotions(moving, self.ends[:, self.others]), self.others)[0]
+
+    def _lock(self, moving: FloatArray, stiffness: FloatArray) -> None:
+        """Take from the velocities what changes the lengths of springs along the freedoms (6 n, m)."""
+        values, vectors = dense.eigh(0.5 * (stiffness + stiffness.T))
+        springs = values > _FLAT * float(np.max(np.abs(values)))
+        if not np.any(springs):
+            return
+        moving, values = moving @ vectors[:, springs], values[springs]
+        pulled = self._by_springs(np.hstack([moving, self.velocity.reshape(-1, 1)]))[:-1, -1]
+        self.velocity = self.velocity - (moving @ (pulled / values)).reshape(-1, 6)
+        bodies = self.ideal.now.bodies[: self.n]
+        bodies.v[:], bodies.w[:] = self.velocity[:, :3], self.velocity[:, 3:]
+        self.ideal.refresh()
+        collect(self.ideal.now.bodies, self.state)
+
+    def _rounding(self, linear: LinearEquations, moving: FloatArray) -> float:
+        """Return the stiffness over unit motions that rounding of the loads may cause [1/s²]."""
+        return _FLAT * linear.load * float(np.max(np.abs(moving))) / self.ideal.size

@@ -1,0 +1,1 @@
+"""From keys to equations: parts by number, surfaces of joints, ranks, closing, start."""

@@ -1,0 +1,270 @@
+"""Assembly of a drawing: small gaps closed, velocities from drives, and what is wrong, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.kernels import dense
+from tribodyn.kernels.mechanism.bodies import collect, place
+from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMemory
+from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
+from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
+from tribodyn.mechanism.assembly.closing import CLOSED, System
+from tribodyn.mechanism.assembly.decompositions import DEPENDENT
+from tribodyn.mechanism.assembly.records import new_memory
+from tribodyn.mechanism.assembly.misfit import Misfit
+from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
+from tribodyn.mechanism.assembly.odd_axes import odd_axes
+from tribodyn.mechanism.assembly.start_speeds import speeds_of, start
+
+
+@dataclass(frozen=True)
+class Redundancy:
+    """Constraints of a loop that say the same more than once.
+
+    Attributes
+    ----------
+    number
+        How many of them.
+    joints
+        Names of the joints that share them.
+    """
+
+    number: int
+    joints: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A mechanism put together.
+
+    Attributes
+    ----------
+    model
+        As drawn.
+    findings
+        What forbids a run; empty for a sound mechanism.
+    freedoms
+        Degrees of freedom that drives leave.
+    redundancy
+        Constraints beyond the independent ones; None without any.
+    inexact
+        Warnings of bodies whose masses differ so much that reactions lose digits.
+    moved
+        How far assembly has moved the body that it moved farthest [m].
+    state
+        State at the start, shape (13 n,).
+    data
+        What the kernels read.
+    ideal_rank
+        Number of independent constraints if all joints were ideal; in a mechanism with loops.
+    findings_if_ideal
+        What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
+        when it is led through its cycle.
+    ideal_data
+        What kernels read of the mechanism with ideal joints in the place of clearances; None without any.
+    strain
+        Which clearances take what ideal joints do not allow, in words; empty for none.
+    """
+
+    model: Model
+    findings: tuple[ModelError, ...]
+    freedoms: int
+    redundancy: Redundancy | None
+    inexact: tuple[str, ...]
+    moved: float
+    state: FloatArray
+    data: MechanismData
+    ideal_rank: int
+    findings_if_ideal: tuple[ModelError, ...] = ()
+    ideal_data: MechanismData | None = None
+    strain: str = ""
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Notes for a run: clearances that are needed to move, reactions not unique, or not exact."""
+        strained = (self.strain,) if self.strain else ()
+        if self.redundancy is None:
+            return (*strained, *self.inexact)
+        number, joints = self.redundancy.number, ", ".join(self.redundancy.joints)
+        return (
+            *strained,
+            f"{number} constraint{'s' * (number > 1)} more than are independent, shared by {joints}: "
+            "their reactions are those of least norm, and not the only ones possible",
+            *self.inexact,
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Remarks on it, in words."""
+        n = self.freedoms
+        free = "no degree of freedom is left" if n == 0 else f"{n} degree{'s' * (n > 1)} of freedom"
+        return free, *self.warnings, *self.notes
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Return that bodies do not start where the model has them."""
+        if self.moved <= CLOSED * float(self.data.parts.constants.size):
+            return ()
+        return (f"assembly moved a body by {self.moved * 1e3:.4g} mm to close the joints",)
+
+    def require_sound(self) -> None:
+        """Raise ``InputError`` of the first finding, if there is one."""
+        if self.findings:
+            raise InputError(self.findings[0].text, key=self.findings[0].key)
+
+
+def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
+    """Put a mechanism together as drawn.
+
+    Joints with clearance are closed as if they were ideal, so that each shaft starts in the middle.
+
+    Parameters
+    ----------
+    model
+        The mechanism; findings that concern it alone are part of the result.
+    worn
+        Wear depth at the nodes of all joints with clearance [m], shape (n_nodes,); none by default.
+    """
+    findings = list(model.loose())
+    closed, open_joints, findings_if_ideal = _closed(model)
+    findings += open_joints
+    as_drawn = not (model.clearances or model.held)
+    system = System(model, worn, data=closed.data if as_drawn else None)
+    system.take_positions(closed)
+    if findings_if_ideal:
+        system.close()
+    rank, dependent = system.independence()
+    redundancy = None
+    if dependent.size:
+        taking_part = _taking_part(system, dependent)
+        names = dict.fromkeys(model.constraint(k)[0].removeprefix("joint ") for k, _ in taking_part)
+        redundancy = Redundancy(len(system.rows) - rank, tuple(names))
+        findings += _loads_not_unique(model, redundancy)
+    contradictions = _contradictions(system, dependent)
+    findings += contradictions
+    ideal_rank, ideal = rank, None
+    if model.clearances:
+        ideal = Misfit(model, System(model.counterpart))
+        ideal.system.take_positions(system)
+    if ideal and model.has_loops and not (contradictions or open_joints or findings_if_ideal):
+        ideal_rank, dependent = ideal.system.independence()
+        findings_if_ideal = _contradictions(ideal.system, dependent)
+    system.parts.constants.rank = rank
+    unequal, inexact = system.unequal(rank)
+    contrary = start(system, speeds_of(model), ideal, fits=not findings_if_ideal)
+    findings += findings_if_ideal if findings_if_ideal and contrary else [*unequal, *contrary]
+    moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
+    state = np.zeros(N_STATES * len(model.bodies))
+    collect(system.now.bodies, state)
+    freedoms = 6 * len(model.bodies) - rank
+    return Assembly(
+        model,
+        tuple(findings),
+        freedoms,
+        redundancy,
+        tuple(inexact),
+        moved,
+        state,
+        system.data,
+        ideal_rank,
+        tuple(findings_if_ideal),
+        None if ideal is None else ideal.system.data,
+    )
+
+
+def _closed(model: Model) -> tuple[System, list[ModelError], list[ModelError]]:
+    """Close the joints as if they were ideal.
+
+    Returns
+    -------
+    system
+        With the bodies where all joints close, or miss least.
+    findings
+        What does not close, whatever the clearances.
+    findings_if_ideal
+        What does not close but for the clearances.
+    """
+    closed = System(model.as_drawn)
+    found = closed.approach()
+    if not (found and model.clearances):
+        return closed, found, []
+    closed = System(model.counterpart)
+    found = closed.approach()
+    fits = not found or Misfit(model, closed).close()
+    return (closed, [], found) if fits else (closed, found, [])
+
+
+def _taking_part(system: System, dependent: FloatArray) -> list[tuple[int, int]]:
+    """Return the rows that depend on each other, as joint and row."""
+    taking_part = np.max(np.abs(dependent), axis=0) > DEPENDENT
+    return [row for row, part in zip(system.rows, taking_part, strict=True) if part]
+
+
+def _loads_not_unique(model: Model, redundancy: Redundancy) -> list[ModelError]:
+    """Return the elements that follow a reaction which is not unique."""
+    found, sharing = [], ", ".join(redundancy.joints)
+    for element in model.elements:
+        table, itself = f"{element.keys.TABLE}.{element.name}", f"{element.keys.METHOD} {element.name}"
+        for law in (equation.law for equation in element.equations if equation.law is not None):
+            words = "is not unique: no friction follows from it"
+            if law.load_of in redundancy.joints:
+                words = f"the reaction of {law.load_of} {words}; give normal_load, or let joints hold less"
+                found.append(ModelError(f"{table}.normal_load", f"{words}: {sharing}"))
+            elif law.load_leg is not None and itself in redundancy.joints:
+                words = f"the force of {itself} {words}; let joints hold less"
+                found.append(ModelError(f"{table}.friction_coefficient", f"{words}: {sharing}"))
+    return found
+
+
+def _contradictions(system: System, dependent: FloatArray) -> list[ModelError]:
+    """Return the finding that drives act where nothing is left to drive, if they do."""
+    if not dependent.size:
+        return []
+    names = {(k, m): name for k, m, name in system.drive_rows()}
+    drives = sorted({names[row] for row in _taking_part(system, dependent) if row in names})
+    if not drives:
+        return []
+    if len(drives) == 1:
+        locking = _locking(system, dependent, names)
+        leave = "leaves" if len(locking) == 1 else "leave"
+        text = (
+            f"drive {drives[0]} has nothing to drive: {', '.join(locking) or 'the joints'} {leave} its "
+            f"coordinate no degree of freedom; remove one of them, or the drive{_odd_axes(system, locking)}"
+        )
+    else:
+        text = f"drives {' and '.join(drives)} drive one freedom; keep one of them"
+    return [ModelError(f"drives.{drives[-1]}", text)]
+
+
+def _locking(system: System, dependent: FloatArray, drives: Mapping[tuple[int, int], str]) -> list[str]:
+    """Return the joints and elements that hold the coordinate of a drive."""
+    of_drive = [row in drives for row in system.rows]
+    combined = dense.product(dependent[:, of_drive].T, dependent)
+    held = _taking_part(system, combined)
+    return list(dict.fromkeys(system.model.constraint(k)[0] for k, m in held if (k, m) not in drives))
+
+
+def _odd_axes(system: System, locking: list[str]) -> str:
+    """Return the axes out of plane among the joints on the path of a drive, in words."""
+    joints = system.model.case.joints
+    return odd_axes({name: keys for name, keys in joints.items() if f"joint {name}" in locking})
+
+
+def memory_of(assembly: Assembly, state: FloatArray) -> MechanismMemory:
+    """Return a memory in a state, in which rows have their scale and dependent ones are marked."""
+    data, memory = assembly.data, new_memory(assembly.data)
+    parts, now = data.parts, memory.now
+    place(state, now.bodies)
+    kinematics(parts, now, data.signals, 0.0)
+    set_offsets(parts, now)
+    row_scale(parts, now)
+    set_compliance(parts, now)
+    if parts.constants.rank < parts.constants.n_rows:
+        choose_rows(parts, now, memory.independence)
+    return memory

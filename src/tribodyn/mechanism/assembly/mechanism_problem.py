@@ -1,0 +1,182 @@
+"""A mechanism as an initial value problem."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
+from tribodyn.integrate.binding import call
+from tribodyn.kernels import dense
+from tribodyn.kernels.mechanism import functions, newton
+from tribodyn.kernels.mechanism.blocks import BLOCK
+from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
+from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
+from tribodyn.mechanisms.actions import WAVE_STEPS
+from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.assembly.records import mechanism_data, new_memory
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.assembly.block_patterns import n_blocks
+from tribodyn.mechanisms.wear_state import Carried
+
+FUNCTIONS: Final = CompiledFunctions(
+    rhs=functions.rhs,
+    jac=functions.jac_entries,
+    enter=functions.enter,
+    advance=functions.advance,
+    accept=functions.accept,
+    observe=functions.observe,
+    picture=functions.picture,
+)
+STATES: Final = (
+    *("x", "y", "z"),
+    *("p_0", "p_1", "p_2", "p_3"),
+    *("v_x", "v_y", "v_z"),
+    *("omega_1", "omega_2", "omega_3"),
+)
+"""States of a body; the angular velocity is in its own axes."""
+
+Tolerances = tuple[float, float, float, float]
+
+
+def mechanism_problem(
+    assembly: Assembly,
+    *,
+    duration: float,
+    rtol: float,
+    atol: Tolerances | None = None,
+    state: FloatArray | None = None,
+    carried: Carried | None = None,
+    dense: bool = False,
+) -> Problem:
+    """Return the initial value problem of an assembled mechanism.
+
+    Parameters
+    ----------
+    assembly
+        From :func:`tribodyn.mechanism.assembly.assembly.assemble`.
+    duration
+        Simulated time [s].
+    rtol
+        Relative tolerance of the run. It holds for velocities; positions and orientations are kept to
+        ``atol`` wherever in the drawing they are.
+    atol
+        Absolute tolerances of positions [m], orientations [rad], velocities [m/s], angular velocities
+        [rad/s]; from ``rtol``, :func:`length_scale` and the speed of the mechanism by default.
+    state
+        Where it begins, shape (13 n,); that of the assembly by default, whose shafts are in the middle.
+    carried
+        State and remembered entry velocities to continue from instead.
+    dense
+        Whether the Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
+    """
+    data, n = assembly.data, len(assembly.model.bodies)
+    begin = assembly.state if state is None else state
+    start = (begin if carried is None else carried.state).copy()
+    memory, kinks = memory_of(assembly, start), data.signals.kinks
+    if carried is not None:
+        memory.contact.entry_velocity[:] = carried.entry_velocity
+    # Of what is carried on, points that wear has taken out of contact forget.
+    call(functions.touch, data, memory, 1.0 if carried is None else 0.0)
+    tolerances = rtol * _scales(assembly, duration) if atol is None else np.asarray(atol)
+    return Problem(
+        functions=replace(FUNCTIONS, jac=functions.jac) if dense else FUNCTIONS,
+        data=data,
+        memory=memory,
+        y0=start,
+        t_span=(0.0, duration),
+        breakpoints=tuple(kinks[(kinks > 0.0) & (kinks < duration)].tolist()),
+        atol=np.tile(np.repeat(tolerances, [3, 4, 3, 3]), n),
+        relative=np.tile(np.repeat([0.0, 1.0], [VELOCITY, N_STATES - VELOCITY]), n),
+        state_names=tuple(f"{name} of {body}" for body in assembly.model.bodies for name in STATES),
+        n_observed=N_WHOLE + n * N_BODY + data.parts.couplings.size * N_COUPLING,
+        field_shape=(data.contact.nodes.shape[1] + data.films.wear_node.size,),
+        algebra=None if dense else _algebra(data),
+        longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
+    )
+
+
+def template(model: Model) -> Problem:
+    """Return a problem of which only the types count, to compile the equations from."""
+    data = mechanism_data(model)
+    n = N_STATES * len(model.bodies)
+    return Problem(
+        functions=FUNCTIONS,
+        data=data,
+        memory=new_memory(data),
+        y0=np.zeros(n),
+        t_span=(0.0, 1.0),
+        breakpoints=(),
+        atol=np.ones(n),
+        state_names=(),
+        n_observed=1,
+        field_shape=(1,),
+        algebra=_algebra(data),
+    )
+
+
+def _shortest_wave(case: MechanismCase) -> float:
+    """Return the shortest period of a sinusoidal drive or load [s]; infinite without one."""
+    signals = [drive.signal for drive in case.drives.values()]
+    periods = [signal.period for signal in signals]
+    periods += [signal.period for load in case.loads.values() for signal in load.given.values()]
+    return min((period for period in periods if period), default=math.inf)
+
+
+def _algebra(data: MechanismData) -> LinearSolver:
+    """Return the linear algebra of the problem's iteration matrix."""
+    n, private = data.parts.bodies.size, int(data.parts.constants.n_entries)
+    state = N_STATES * np.arange(n)[:, None]
+    rows = np.array([VELOCITY, VELOCITY + 1, VELOCITY + 2, TURNING, TURNING + 1, TURNING + 2])
+    n_numbers = n_blocks(data.newton) + int(data.parts.constants.n_work)
+    return LinearSolver(
+        places=np.ascontiguousarray(
+            [(state + np.repeat(rows, 3)).ravel(), (state + np.tile(np.arange(ORIENTATION), 6)).ravel()]
+        ),
+        factorise=newton.factorise,
+        solve=newton.solve,
+        n_factors=1 + private + 9 * n + BLOCK * n_numbers,
+        n_entries=newton.N_PLACES * n + private,
+    )
+
+
+def length_scale(assembly: Assembly) -> float:
+    """Return the length that positions are resolved against [m].
+
+    The smallest clearance as drawn; a tenth of the mechanism where all joints are ideal.
+    """
+    clearances = [real.shape.clearance for real in assembly.model.clearances.values()]
+    return min(clearances, default=0.1 * float(assembly.data.parts.constants.size))
+
+
+def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
+    """Return the work of the largest force over the way to which positions are resolved [J].
+
+    Where nothing moves there is no more to balance than that.
+    """
+    return float(np.max(np.abs(forces), initial=0.0)) * rtol * length_scale(assembly)
+
+
+def _scales(assembly: Assembly, duration: float) -> FloatArray:
+    """Return the scales of positions, orientations, velocities and angular velocities, shape (4,)."""
+    size, length = float(assembly.data.parts.constants.size), length_scale(assembly)
+    state = assembly.state.reshape(-1, N_STATES)
+    speed = max(
+        float(np.max(np.linalg.norm(state[:, VELOCITY:TURNING], axis=1))),
+        size * float(np.max(np.linalg.norm(state[:, TURNING:], axis=1))),
+        float(np.sqrt(dense.norm(assembly.model.case.gravity) * size)),
+        size / duration,
+    )
+    return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])
+
+
+def stored_energy(problem: Problem) -> float:
+    """Return the energy stored in the joints with clearance of a mechanism at the start of a problem [J]."""
+    data, memory = problem.data, problem.memory
+    functions.enter(problem.t_span[0], problem.y0.copy(), data, memory)
+    return float(np.sum(memory.now.couplings.stored[data.parts.couplings.force == CONTACT]))

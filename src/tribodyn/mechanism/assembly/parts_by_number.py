@@ -1,0 +1,195 @@
+"""A mechanism between its keys and its equations: parts by number, and the surfaces of its joints.
+
+Bodies and joints are counted from 0 in the order of the case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain
+
+from tribodyn.joints.clearances import Clearance
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
+from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanism.model.parts import JointKeys
+from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+
+
+@dataclass(frozen=True)
+class ModelError:
+    """Something that forbids a run.
+
+    Attributes
+    ----------
+    key
+        What to change, as in a case file: ``joints.wrist``.
+    text
+        In words.
+    """
+
+    key: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Element:
+    """A gear pair or another element: a constraint equation or a force law over coordinates of its legs.
+
+    Attributes
+    ----------
+    name
+        Its name, unique among all elements.
+    keys
+        Its table; its class is a member of ``elements.ELEMENTS``.
+    equations
+        Its equations, one for most.
+    """
+
+    name: str
+    keys: ElementKeys
+    equations: tuple[Equation, ...]
+
+    @property
+    def legs(self) -> tuple[Leg, ...]:
+        """The legs of all its equations."""
+        return tuple(leg for equation in self.equations for leg in equation.legs)
+
+
+@dataclass(frozen=True)
+class Model:
+    """The keys of a mechanism, and which of its joints have clearance.
+
+    Attributes
+    ----------
+    case
+        Bodies, joints and all that acts on them, in SI units.
+    clearances
+        Of the joints that are not ideal, by their names.
+    held
+        Kinds of the ideal joints that take the place of joints with clearance, by their names.
+    """
+
+    case: MechanismCase
+    clearances: Mapping[str, Clearance] = field(default_factory=dict)
+    held: Mapping[str, str] = field(default_factory=dict)
+
+    @cached_property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the bodies."""
+        return tuple(self.case.bodies)
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the joints."""
+        return tuple(self.case.joints)
+
+    @cached_property
+    def elements(self) -> tuple[Element, ...]:
+        """All elements."""
+        joints = self.case.joints
+        return tuple(Element(name, keys, keys.equations(joints)) for _, name, keys in self.case.elements())
+
+    def number(self, body: str) -> int:
+        """Return the number of a body; −1 for the ground."""
+        return self.bodies.index(body) if body in self.case.bodies else -1
+
+    def joint(self, number: int) -> JointKeys:
+        """Return the keys of a joint."""
+        return self.case.joints[self.joints[number]]
+
+    def kind(self, joint: str) -> str:
+        """Return the kind of an ideal joint."""
+        return self.held.get(joint, self.case.joints[joint].type)
+
+    @property
+    def real(self) -> list[int]:
+        """Numbers of the joints with clearance."""
+        return [number for number, name in enumerate(self.joints) if name in self.clearances]
+
+    @property
+    def oiled(self) -> list[int]:
+        """Numbers of the joints with an oil film."""
+        films = {name: clearance.film for name, clearance in self.clearances.items()}
+        return [number for number, name in enumerate(self.joints) if films.get(name) is not None]
+
+    @property
+    def first_leg(self) -> int:
+        """Number of the coupling that is the first leg of the first element: all legs come last."""
+        return len(self.joints) + len(self.case.springs) + len(self.case.loads)
+
+    def element_of(self, coupling: int) -> Element:
+        """Return the element whose leg a coupling is."""
+        return [element for element in self.elements for _ in element.legs][coupling - self.first_leg]
+
+    def constraint(self, coupling: int) -> tuple[str, tuple[str, ...]]:
+        """Return the owner of a coupling's constraint equation, ``joint NAME``, and its bodies."""
+        if coupling < len(self.joints):
+            return f"joint {self.joints[coupling]}", self.joint(coupling).between
+        element = self.element_of(coupling)
+        bodies = dict.fromkeys(name for leg in element.legs for name in leg.bodies)
+        return f"{element.keys.METHOD} {element.name}", tuple(bodies)
+
+    @property
+    def as_drawn(self) -> Model:
+        """The mechanism in which every joint is the ideal one of its type."""
+        return Model(self.case)
+
+    @property
+    def counterpart(self) -> Model:
+        """The mechanism as the clearances vanish: every joint is the ideal one that holds the same."""
+        return self._with_ideal(self.joints)
+
+    @property
+    def without_play(self) -> Model:
+        """The mechanism whose gears have no backlash."""
+        return replace(self, case=self.case.without_play())
+
+    @property
+    def without_films(self) -> Model:
+        """The mechanism in which joints with an oil film are the ideal ones that hold the same."""
+        return self._with_ideal([self.joints[number] for number in self.oiled])
+
+    def _with_ideal(self, names: Sequence[str]) -> Model:
+        """Return the mechanism with the ideal joints that hold the same in the place of some."""
+        real = {name: clearance for name, clearance in self.clearances.items() if name not in names}
+        held = {name: self.case.joints[name].ideal for name in self.clearances if name in names}
+        return replace(self, clearances=real, held={**self.held, **held})
+
+    @property
+    def has_loops(self) -> bool:
+        """Whether joints close a loop, through the ground or not, or elements do; else all can close."""
+        if any(equation.law is None for element in self.elements for equation in element.equations):
+            return True
+        group = list(range(-1, len(self.bodies)))
+
+        def root(body: int) -> int:
+            while group[body + 1] != body:
+                body = group[body + 1]
+            return body
+
+        for name, joint in self.case.joints.items():
+            first, second = (root(self.number(body)) for body in joint.between)
+            if JOINTS[self.kind(name)].ROWS:
+                if first == second:
+                    return True
+                group[first + 1] = second
+        return False
+
+    def loose(self) -> Iterator[ModelError]:
+        """Yield the bodies that no joint, spring or element names."""
+        between = [joint.between for joint in self.case.joints.values()]
+        between += [spring.between for spring in self.case.springs.values()]
+        between += [leg.bodies for element in self.elements for leg in element.legs]
+        held = set(chain.from_iterable(between))
+        for body in self.bodies:
+            if body not in held:
+                text = f"nothing holds body {body}: no joint, spring or element names it"
+                yield ModelError(f"bodies.{body}", text)
+
+
+def model_of(case: MechanismCase) -> Model:
+    """Return the mechanism of a case, with its contact laws tabulated."""
+    return Model(case, clearances_of(case))

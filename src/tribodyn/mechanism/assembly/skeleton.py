@@ -1,0 +1,229 @@
+"""A mechanism as lines between its joints: where the points of every body are, as pictures need it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final, TypeAlias
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases.directions import unit
+from tribodyn.cases.fields import Vector
+from tribodyn.cases.load import parse
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.frames import GROUND
+
+Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
+"""Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3)."""
+
+MM: Final = 1e3
+_FLAT: Final = 0.2
+"""A mechanism thinner than this share of its size is looked at across its plane."""
+
+
+def case_of(dataset: xr.Dataset) -> MechanismCase | None:
+    """Return the case of a result; nothing where its text is not (or no longer) one of a mechanism."""
+    return _case_of(str(dataset.attrs.get("case", "")))
+
+
+@lru_cache(maxsize=1)
+def _case_of(text: str) -> MechanismCase | None:
+    """Return the case of a text, which several figures and sections of one result ask for."""
+    kinds = {MechanismCase.kind(): MechanismCase}
+    try:
+        case = parse(text, "case of the result", kinds)
+    except InputError:
+        return None
+    return case if isinstance(case, MechanismCase) else None
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A joint as it is drawn.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    body
+        Number of the body that carries it; −1 for the ground.
+    point, axis
+        Place [m] and direction in the drawing; no direction for a ball.
+    real
+        Whether it has clearance.
+    grounded
+        Whether one of its bodies is the ground.
+    """
+
+    name: str
+    body: int
+    point: FloatArray
+    axis: FloatArray | None
+    real: bool
+    grounded: bool
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """Lines and points of a picture of a mechanism.
+
+    Attributes
+    ----------
+    bodies
+        Names.
+    centres
+        Mass centres in the drawing [m], shape (n_bodies, 3).
+    points
+        Of each body the ends of its lines as modelled [m], shape (n, 3): joints, ends of rods, points of
+        loads and outputs; the mass centre where these are fewer than two.
+    marks
+        The joints.
+    outlines
+        Lines that show elements: numbers of the bodies that carry one, −1 for the ground, and the points of
+        each in the drawing [m], shape (n, 3).
+    springs
+        Lines along springs, likewise.
+    """
+
+    bodies: tuple[str, ...]
+    centres: FloatArray
+    points: tuple[FloatArray, ...]
+    marks: tuple[Mark, ...]
+    outlines: tuple[Outline, ...] = ()
+    springs: tuple[Outline, ...] = ()
+
+    def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
+        """Return the ends of the lines of a body [mm], shape (..., n, 3).
+
+        Parameters
+        ----------
+        body
+            Its number.
+        position, orientation
+            Mass centre [m] and quaternion, shapes (..., 3) and (..., 4).
+        """
+        return self.moved(self.points[body], body, position, orientation)
+
+    def moved(
+        self, points: FloatArray, body: int, position: FloatArray, orientation: FloatArray
+    ) -> FloatArray:
+        """Return the places of points of the model [m] that a body carries [mm], shape (..., n, 3).
+
+        Parameters
+        ----------
+        points
+            Shape (n, 3).
+        body
+            Its number; −1 for the ground.
+        position, orientation
+            Of this body, shapes (..., 3) and (..., 4); of any for the ground.
+        """
+        if body < 0:
+            return np.broadcast_to(MM * points, (*position.shape[:-1], *points.shape))
+        arms = points - self.centres[body]
+        return MM * (position[..., None, :] + rotated(orientation[..., None, :], arms))
+
+
+def outline_at(
+    drawn: Skeleton,
+    outline: Outline,
+    position: FloatArray,
+    orientation: FloatArray,
+) -> FloatArray:
+    """Return a line [mm], shape (..., n, 3), from the motion of all bodies, (..., n_bodies, 3 or 4)."""
+    parts = [
+        drawn.moved(points, body, position[..., body, :], orientation[..., body, :])
+        for body, points in outline
+    ]
+    return np.concatenate(parts, axis=-2)
+
+
+def skeleton(case: MechanismCase) -> Skeleton:
+    """Return the picture's lines for the mechanism of a case."""
+    names = tuple(case.bodies)
+    centres = np.array([body.centre for body in case.bodies.values()])
+    ends: list[list[FloatArray]] = [[] for _ in names]
+    for name, point in _ends(case):
+        if name != GROUND:
+            own = ends[names.index(name)]
+            own += [] if any(np.allclose(point, other) for other in own) else [np.array(point)]
+    points = tuple(
+        np.array(own if len(own) > 1 else [*own, centre]) for own, centre in zip(ends, centres, strict=True)
+    )
+    marks = tuple(_mark(case, name, names) for name in case.joints)
+    return Skeleton(
+        names, centres, points, marks, tuple(_outlines(case, names)), tuple(_springs(case, names))
+    )
+
+
+def _ends(case: MechanismCase) -> Iterator[tuple[str, Vector]]:
+    """Yield the points of bodies that lines lead to: joints, ends of rods, points of loads and outputs."""
+    for joint in case.joints.values():
+        yield from zip(joint.between, (joint.point, joint.other_point or joint.point), strict=True)
+    for name, body in case.bodies.items():
+        yield from ((name, end) for end in (body.start, body.end) if end is not None)
+    for load in case.loads.values():
+        yield from [] if load.point is None else [(load.body, load.point)]
+    for output in case.outputs.values():
+        yield from [] if output.point is None else [(output.body, output.point)]
+        yield from [] if output.reference_point is None else [(output.reference, output.reference_point)]
+
+
+def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[Outline]:
+    """Yield the lines that show elements but springs."""
+    for _, _, keys in case.elements():
+        for outline in () if keys.IS_SPRING else keys.outlines(case.joints):
+            yield _numbered(outline, bodies)
+
+
+def _springs(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[Outline]:
+    """Yield the lines along springs, linear ones first."""
+    for spring in case.springs.values():
+        first, second = np.array(spring.points)[:, None]
+        yield _numbered(zip(spring.between, (first, second), strict=True), bodies)
+    for _, _, keys in case.elements():
+        for outline in keys.outlines(case.joints) if keys.IS_SPRING else ():
+            yield _numbered(outline, bodies)
+
+
+def _numbered(outline: Iterable[tuple[str, FloatArray]], bodies: tuple[str, ...]) -> Outline:
+    """Return a line by the numbers of its bodies."""
+    return tuple((-1 if body == GROUND else bodies.index(body), points) for body, points in outline)
+
+
+def _mark(case: MechanismCase, name: str, bodies: tuple[str, ...]) -> Mark:
+    joint = case.joints[name]
+    first = joint.between[0]
+    axis = np.array(unit(joint.axis, "axis")) if joint.axis is not None and joint.kind.AXIS else None
+    body = -1 if first == GROUND else bodies.index(first)
+    return Mark(name, body, np.array(joint.point), axis, joint.real is not None, GROUND in joint.between)
+
+
+def rotated(quaternion: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Return vectors turned by unit quaternions (w, x, y, z); shapes (..., 4) and (..., 3)."""
+    w, axis = quaternion[..., :1], quaternion[..., 1:]
+    twice = 2.0 * np.cross(axis, vectors)
+    return np.asarray(vectors + w * twice + np.cross(axis, twice))
+
+
+def view(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return from where a mechanism is seen, and what is up, two unit vectors.
+
+    Parameters
+    ----------
+    points
+        Where it comes to, shape (n, 3).
+    """
+    spans = np.ptp(points, axis=0)
+    thin = int(np.argmin(spans))
+    up = np.eye(3)[2 if thin != 2 else 1]
+    if spans[thin] <= _FLAT * spans.max():
+        across = np.eye(3)[thin]
+        return (across if thin == 2 else -across), up
+    eye = np.array([0.55, -1.0, 0.45])
+    return eye / np.linalg.norm(eye), up

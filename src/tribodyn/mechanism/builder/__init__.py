@@ -1,0 +1,1 @@
+"""The builder ``td.Mechanism``: a mechanism put together in Python."""

@@ -1,0 +1,152 @@
+"""A mechanism put together in Python; what comes of it is the case that a file would have made."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from html import escape
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+import numpy as np
+
+from tribodyn.cases.case import build
+from tribodyn.cases.entry import Entry
+from tribodyn.cases.keys import Key, keys_of
+from tribodyn.cases.load import flat
+from tribodyn.cases.tables import expanded
+from tribodyn.cases.units import si_unit
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import meant
+from tribodyn.mechanism.builder.arguments import CASE, signature_of_case
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.builder.docstrings import docstring
+from tribodyn.mechanism.builder.methods import METHODS, OF_JOINT, BuilderMethod
+
+if TYPE_CHECKING:
+    from tribodyn.mechanism.builder.signatures import Signatures
+else:
+
+    class Signatures:
+        """Stands for the methods that are added below, whose types are in ``signatures.pyi``."""
+
+        def __getattr__(self, name: str) -> Any:
+            """Suggest the method that was probably meant by an unknown name."""
+            hint = meant(name, [method.name for method in METHODS])
+            raise AttributeError(f"a Mechanism has no method {name!r}{hint}", name=name, obj=self)
+
+
+SOURCE: Final = "Mechanism"
+
+
+class _CaseTables:
+    """The tables of a case as they begin."""
+
+    __signature__: ClassVar[inspect.Signature]
+
+    def __init__(self, title: str = "Mechanism", **keys: object) -> None:
+        self._tables: dict[str, Any] = {CASE: MechanismCase.kind(), "title": title, **keys}
+
+
+class Mechanism(Signatures, _CaseTables):
+    """Bodies, joints and what moves them, in one drawing with global coordinates.
+
+    Values are written as in a case file, with their units; NumPy arrays are numbers in SI units. Keys of
+    tables are arguments. Methods return the mechanism, so that calls can be chained; nothing is checked
+    before :meth:`case`.
+
+    Parameters
+    ----------
+    title
+        Heading of figures and report.
+    **keys
+        Keys and tables of the case, such as ``gravity="0, 0, -9.81 m/s^2"`` or ``run={"cycles": 2}``.
+
+    Examples
+    --------
+    >>> pendulum = Mechanism("Pendulum", gravity="0, -9.81, 0 m/s^2", run={"duration": "2 s"})
+    >>> rod = {"mass": "1 kg", "inertia": "0.01, 0.01, 0.01 kg m^2"}
+    >>> case = pendulum.body("rod", centre="0.5, 0, 0 m", **rod).revolute(
+    ...     "pivot", "ground", "rod", point="0, 0, 0 m", axis=[0, 0, 1]
+    ... ).case()
+    >>> case.joints["pivot"].type
+    'revolute'
+    """
+
+    def case(self) -> MechanismCase:
+        """Return the case.
+
+        Returns
+        -------
+        MechanismCase
+            Checked; its values are in SI units.
+
+        Raises
+        ------
+        InputError
+            Something in it is wrong; the message names the key as a case file spells it.
+        """
+        values = dict(flat(self._tables))
+        keys = expanded(keys_of(MechanismCase), values)
+        entries = {path: Entry(_plain(value, keys.get(path)), SOURCE) for path, value in values.items()}
+        return build(MechanismCase, entries, SOURCE)
+
+    def _repr_html_(self) -> str:
+        """Return the case as a notebook shows it, or what is still wrong and which parts there are."""
+        try:
+            return self.case()._repr_html_()
+        except InputError as error:
+            parts = [
+                (table, ", ".join(names)) for table, names in self._tables.items() if isinstance(names, dict)
+            ]
+            rows = "".join(
+                f"<tr><td>{escape(table)}</td><td>{escape(names)}</td></tr>" for table, names in parts
+            )
+            title = f"<strong>{escape(str(self._tables['title']))}</strong>"
+            return f"{title}<table>{rows}</table><p>{escape(str(error))}</p>"
+
+    def _fill(self, method: BuilderMethod, name: str, keys: Mapping[str, object]) -> None:
+        """Add a table of some name."""
+        inside = self._tables.setdefault(method.table, {})
+        if name in inside:
+            raise InputError("this name is given twice", key=f"{method.table}.{name}", source=SOURCE)
+        inside[name] = dict(keys)
+
+    def _fill_joint(self, method: BuilderMethod, joint: str, keys: Mapping[str, object]) -> None:
+        """Add a table to a joint."""
+        if joint not in self._tables.get("joints", {}):
+            words = f"write the joint first, then its {method.table}"
+            raise InputError(words, key=f"joints.{joint}", source=SOURCE)
+        self._tables["joints"][joint][method.table] = dict(keys)
+
+
+def _adding(method: BuilderMethod) -> Callable[..., Mechanism]:
+    """Return a method of the builder."""
+    own = [p for p in method.signature.parameters.values() if p.kind is p.POSITIONAL_OR_KEYWORD]
+    names = inspect.Signature([*own, inspect.Parameter("keys", inspect.Parameter.VAR_KEYWORD)])
+
+    def add(*arguments: Any, **keys: object) -> Mechanism:
+        bound = names.bind(*arguments, **keys)
+        mechanism: Mechanism = bound.args[0]
+        name, values = method.values(*bound.args[1:], **bound.kwargs)
+        fill = mechanism._fill_joint if method.table in OF_JOINT else mechanism._fill
+        fill(method, name, values)
+        return mechanism
+
+    add.__name__, add.__qualname__ = method.name, f"{Mechanism.__name__}.{method.name}"
+    add.__doc__ = docstring(method)
+    vars(add)["__signature__"] = method.signature
+    return add
+
+
+def _plain(value: Any, key: Key | None) -> Any:
+    """Return a value as TOML would give it; an array of numbers of a unit is in SI units."""
+    if isinstance(value, np.ndarray):
+        numbers = value.ravel().tolist()
+        unit = si_unit(key.unit) if key is not None and key.unit else ""
+        return [f"{number!r} {unit}" for number in numbers] if unit else numbers
+    return list(value) if isinstance(value, tuple) else value
+
+
+for _method in METHODS:
+    setattr(Mechanism, _method.name, _adding(_method))
+Mechanism.__signature__ = signature_of_case()

@@ -1,0 +1,30 @@
+"""Elements: constraint equations and force laws over coordinates of joints and distances of points.
+
+An element is one file with one class, and its name in the list below. Keys of case files, their table in the
+manual, methods of the builder, messages, constraint equations and results follow from the list.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.mechanism.elements.element import ElementKeys
+from tribodyn.mechanism.members import members_of
+
+NAMES: Final = (
+    "gear",
+    "rack",
+    "screw",
+    "distance",
+    "nonlinear_spring",
+    "torsion_spring",
+    "stop",
+    "drag",
+    "joint_friction",
+    "motor",
+    "controller",
+)
+"""Modules of this package that hold elements."""
+
+ELEMENTS: Final[tuple[type[ElementKeys], ...]] = tuple(members_of(__name__, NAMES, ElementKeys))
+"""Every kind of element."""

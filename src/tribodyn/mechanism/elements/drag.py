@@ -1,0 +1,56 @@
+"""Aerodynamic drag: a force against the velocity v of a point, in air at rest, F = ½ ρ c_d A v²."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+
+from tribodyn.cases.fields import Vector, name, number, quantity, vector
+from tribodyn.mechanism.elements import element as base
+from tribodyn.mechanism.model.parts import POINT
+
+
+def quadratic(body: Any, law: Any) -> None:
+    """Fill the drag along the path of a point."""
+    factor = 0.5 * body.density * body.drag_coefficient * body.area
+    law.force = -factor * law.rate * law.rate
+    law.in_rate = -2.0 * factor * law.rate
+    law.friction = -law.force * law.rate
+
+
+class Drag(base.ElementKeys):
+    """Aerodynamic drag on a point of a body, against its velocity in air at rest."""
+
+    TABLE: ClassVar[str] = "drags"
+    METHOD: ClassVar[str] = "drag"
+    FORCE: ClassVar[str] = "force on the body along the velocity of its point: below zero"
+    MOMENT: ClassVar[str] = "none"
+    LAW: ClassVar = quadratic
+    EXAMPLE: ClassVar[str] = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
+[joints]
+input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1], start_speed = "300 rpm" }
+[drags.vane]
+body = "arm"
+point = "0, 100, 0 mm"
+drag_coefficient = 1.2
+area = "200 cm^2"
+[drives.motor]
+joint = "input"
+torque = "0.2 N m"
+"""  # noqa: E501 (an inline table of TOML is one line)
+
+    body: str = name(None, "body that it acts on", "", example="arm", required=True)
+    point: Vector = vector(None, "centre of pressure", "", unit="mm", example=POINT, required=True)
+    drag_coefficient: float = number(None, "drag coefficient c_d", "", ge=0, example="1.2", required=True)
+    area: float = quantity(None, "reference area", "", unit="cm^2", gt=0, example="200 cm^2", required=True)
+    density: float = quantity("1.2 kg/m^3", "density of the air, at 20 degC and 1 bar", "assumed", gt=0)
+
+    def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
+        """Return the leg of the path of the point."""
+        points = np.array([self.point, self.point])
+        return (base.of_points(("ground", self.body), points, "path"),)

@@ -1,0 +1,228 @@
+"""Gear pair: two wheels that turn in a fixed ratio against the body that carries both.
+
+On parallel axes a distance D apart, pitch circles of the ratio i touch at P, at D i/(i − 1) from the first
+axis towards the second. With the angles θ against the carrier, the direction n in which the teeth move, and
+the displacements d of the wheels in their bearings at O,
+
+    n·(d_2 + θ_2 × (P − O_2)) − n·(d_1 + θ_1 × (P − O_1)) = 0.
+
+The multiplier is the tangential tooth force. Nothing acts on the carrier but the bearings.
+
+With backlash j the sum is no constraint but the path of the teeth along the pitch circles, zero in the middle
+of the gap. Beyond ±j/2 a flank is in contact, by the law of a limit stop. Its normal is turned by the
+pressure angle α: the tooth force F pushes the wheels apart with F tan α; nearer to each other they have less
+play. Teeth without backlash push the wheels apart with |λ| tan α where the pressure angle is given.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from mebdf.kernels.elementary import portable
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import choice, names, number, quantity, switch
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
+from tribodyn.mechanism.elements import element as base
+from tribodyn.mechanism.elements.stop import LEAST_RATE, RESTITUTION, damping_of, one_sided
+
+PRESSURE_ANGLE = math.radians(20.0)
+"""Of teeth with backlash, where a case does not say it [rad]."""
+_OFFSET = 1.0e-9
+"""Distance between parallel axes, over that between all joints, up to which they are one axis."""
+
+
+class Gear(base.ElementKeys):
+    """A gear pair: two wheels, each in a bearing of the same carrier, turn in a fixed ratio."""
+
+    TABLE: ClassVar[str] = "gears"
+    METHOD: ClassVar[str] = "gear"
+    FORCE: ClassVar[str] = "tangential tooth force on the second wheel; none where axes are not parallel"
+    MOMENT: ClassVar[str] = "torque of the teeth on the second wheel, about its axis"
+    MOMENT_OF: ClassVar[int] = 1
+    EXAMPLE: ClassVar[str] = """
+case = "mechanism"
+run.duration = "50 ms"
+[bodies]
+pinion = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-4, 3e-4, 5e-4 kg m^2" }
+wheel = { mass = "4 kg", centre = "90, 0, 0 mm", inertia = "5e-3, 5e-3, 9e-3 kg m^2" }
+[joints]
+input = { type = "revolute", between = ["ground", "pinion"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+output = { type = "revolute", between = ["ground", "wheel"], point = "90, 0, 0 mm", axis = [0, 0, 1] }
+[gears.mesh]
+joints = ["input", "output"]
+ratio = -0.5
+[drives.motor]
+joint = "input"
+torque = "0.2 N m"
+"""
+
+    joints: tuple[str, str] = names(
+        "the bearings of the two wheels in the body that carries both",
+        "",
+        length=2,
+        example='["input", "output"]',
+    )
+    ratio: float = number(
+        None,
+        "turns of the second wheel for one of the first, seen from the carrier; negative for external gears",
+        "",
+        example="-2.5",
+        required=True,
+    )
+
+    backlash: float | None = quantity(
+        None, "play j of the teeth along the pitch circles; none without it", "", ge=0, example="0.1 mm"
+    )
+    mesh_stiffness: float | None = quantity(
+        None, "tooth force over indentation, of teeth with backlash", "", gt=0, example="100 N/um"
+    )
+    damping_factor: str = choice(
+        "calibrated",
+        "how damping of teeth with backlash follows from restitution",
+        "assumed",
+        family="tribodyn.contact:DAMPING_FACTORS",
+    )
+    restitution: float = number(
+        RESTITUTION, "coefficient of restitution of teeth with backlash", "manual, elements", gt=0, le=1
+    )
+    ideal: bool = switch(False, "treat the teeth as without backlash", "assumed")
+    pressure_angle: float | None = quantity(
+        None,
+        "pressure angle, by which teeth push the wheels apart; without it 20 deg with backlash, else none",
+        "",
+        ge=0,
+        lt="60 deg",
+        example="20 deg",
+    )
+
+    @property
+    def has_play(self) -> bool:
+        """Whether its teeth have backlash."""
+        return self.backlash is not None and not self.ideal
+
+    @property
+    def without_play(self) -> Self:
+        """The gear without backlash, which pushes its wheels apart by the same angle."""
+        if self.backlash is None:
+            return self
+        angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
+        return self.model_copy(update={"backlash": None, "pressure_angle": angle})
+
+    def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
+        """Return the constraint, or one contact for each flank of teeth with backlash."""
+        if self.ideal and self.backlash is not None:
+            return self.without_play.equations(joints)
+        if self.backlash is None:
+            return (base.Equation(self._pushing(joints), None),)
+        demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")
+        words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
+        demand(self._pitch(joints) is not None, "backlash", words)
+        law = base.ForceLaw(
+            one_sided,
+            {
+                "at": 0.5 * self.backlash,
+                "side": 1.0,
+                "exponent": 1.0,
+                "scale": self.mesh_stiffness or 0.0,
+                "damping": damping_of(self.damping_factor, self.restitution),
+                "least_rate": LEAST_RATE,
+            },
+        )
+        return tuple(base.Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
+
+    def _pushing(self, joints: base.Joints) -> tuple[base.Leg, ...]:
+        """Return the legs of the constraint, whose force pushes the wheels apart as well."""
+        legs = self.legs(joints)
+        if not self.pressure_angle:
+            return legs
+        words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
+        demand(self._pitch(joints) is not None, "pressure_angle", words)
+        pushes = self._pushes(legs, self.pressure_angle)
+        return tuple(replace(wheel, push=push) for wheel, push in zip(legs, pushes, strict=True))
+
+    def _flank(self, legs: tuple[base.Leg, ...], side: float) -> tuple[base.Leg, ...]:
+        """Return the legs of one flank: its contact, with λ below zero, pushes the wheels apart as well."""
+        angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
+        return tuple(
+            replace(wheel, along=side * wheel.along - push, about=side * wheel.about, reported=wheel.along)
+            for wheel, push in zip(legs, self._pushes(legs, angle), strict=True)
+        )
+
+    @staticmethod
+    def _pushes(legs: tuple[base.Leg, ...], angle: float) -> tuple[FloatArray, FloatArray]:
+        """Return the forces that push both wheels apart, over the tooth force."""
+        towards = [np.cross(wheel.along, [0.0, 0.0, wheel.about]) for wheel in legs]
+        apart = min(towards, key=lambda arm: float(dense.norm(arm)))
+        apart = apart / dense.norm(apart) * (1.0 if apart is towards[0] else -1.0)
+        return -portable.tan(angle) * apart, portable.tan(angle) * apart
+
+    def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
+        """Return one leg for each wheel."""
+        carrier = self._carrier(joints)
+        first, second = (joints[name] for name in self.joints)
+        axis, other = base.axis_of(first), base.axis_of(second)
+        if base.are_parallel(axis, other):
+            other = axis
+        points = [base.origin(joint, carrier) for joint in (first, second)]
+        wheels = [base.other_body(joint, carrier) for joint in (first, second)]
+        pitch = self._pitch(joints)
+        if pitch is None:
+            size = base.size_of(joints)
+            none = np.zeros(3)
+            return (
+                base.leg((carrier, wheels[0]), points[0], axis, none, -self.ratio * size),
+                base.leg((carrier, wheels[1]), points[1], other, none, size),
+            )
+        # Both wheels are held where the plane of the teeth, that of the first joint, meets their axes.
+        points[1] = points[1] + axis * (dense.product(points[0][0] - points[1][0], axis))
+        arms = [pitch - point[0] for point in points]
+        teeth = np.cross(axis, arms[0]) / dense.norm(arms[0])
+        lever = [float(dense.product(np.cross(axis, arm), teeth)) for arm in arms]
+        return (
+            base.leg((carrier, wheels[0]), points[0], axis, -teeth, -lever[0]),
+            base.leg((carrier, wheels[1]), points[1], axis, teeth, lever[1]),
+        )
+
+    def outlines(self, joints: base.Joints) -> Iterable[base.Outline]:
+        """Return the pitch circles, where axes are parallel."""
+        pitch = self._pitch(joints)
+        for one in self.legs(joints) if pitch is not None else ():
+            yield ((one.bodies[1], base.circle(one.points[1], one.axes[:, 2], abs(one.about))),)
+
+    def _carrier(self, joints: base.Joints) -> str:
+        """Return the body that carries both wheels, after checks of joints and ratio."""
+        demand(
+            self.ratio != 0.0,
+            "ratio",
+            "the ratio is 0; give the turns of the second wheel for one of the first",
+        )
+        for name in self.joints:
+            base.require_type(name, joints[name], ("revolute", "cylindrical"), "a gear pair")
+        return base.carrier(self.joints, joints)
+
+    def _pitch(self, joints: base.Joints) -> FloatArray | None:
+        """Return the pitch point as drawn [m], shape (3,); None for gears that transmit a torque only."""
+        first, second = (joints[name] for name in self.joints)
+        axis = base.axis_of(first)
+        points = [base.origin(joint, self._carrier(joints))[0] for joint in (first, second)]
+        apart = points[1] - points[0]
+        apart = apart - axis * (dense.product(axis, apart))
+        if base.are_parallel(axis, base.axis_of(second)) and dense.norm(apart) > _OFFSET * base.size_of(
+            joints
+        ):
+            words = "wheels of a ratio of 1 on two axes have no pitch point; external gears have one below 0"
+            demand(self.ratio != 1.0, "ratio", words)
+            return np.asarray(points[0] + self.ratio / (self.ratio - 1.0) * apart)
+        for name in self.joints:
+            words = (
+                f"{name} has clearance, and gears whose axes are not parallel, or are one axis, transmit a "
+                "torque only: its bearing would lack the force of the teeth; make it ideal"
+            )
+            demand(joints[name].real is None, "joints", words)
+        return None

@@ -1,0 +1,165 @@
+"""Friction in an ideal joint by its reaction or a stated load: Coulomb, Stribeck and viscous parts.
+
+With the sliding speed v, at a radius where the joint turns, and the normal load N, which is stated or the
+size of the joint's own reaction across its axis,
+
+    F = N (μ + (μ_s − μ) exp(−(v/v_s)²)) v/√(v² + u_s²) + c v
+
+against the motion. It is the law of ``tribodyn.friction`` with the regularisation of joints with clearance:
+what sticks creeps, by less than the slip velocity u_s.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar, Final, Self
+
+from mebdf.kernels.elementary import exp
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import number, quantity
+from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
+
+LEAST_SLOPE: Final = -1.0e4
+LARGEST_SLOPE: Final = 0.999
+"""Slopes of a reaction over the load that are extrapolated: beyond, rounds are taken as they come."""
+SAME: Final = 1.0e-10
+"""Difference of load and reaction, over these, that may be rounding: the load is kept."""
+LEAST_CHANGE: Final = 1.0e-6
+"""Change of a load, over the reaction, below which rounding decides about the slope."""
+
+
+def regularised(joint: Any, law: Any) -> None:
+    """Fill the friction force at a sliding speed.
+
+    The force of a thread changes strongly with its friction. With ``extrapolates`` rounds of both are
+    extrapolated to where neither changes, by the slope of the reaction over the load (Aitken). That slope is
+    in ``held``; load of the last round, load and reaction of the one before are in the entries of a table,
+    zero at first. This law has no table and no controller. Where several joints change each other's
+    reactions, plain rounds are more reliable.
+    """
+    v, slip = law.rate, joint.slip_velocity
+    followed, gain = law.normal, 0.0
+    if joint.extrapolates > 0.0:
+        change, apart = law.table[0] - law.table[1], law.normal - law.table[0]
+        if law.normal == 0.0 and law.table[0] == 0.0:
+            law.held = 0.0
+        elif abs(change) > LEAST_CHANGE * law.normal:
+            slope = (law.normal - law.table_slope) / change
+            law.held = slope if LEAST_SLOPE < slope < LARGEST_SLOPE else 0.0
+        if abs(apart) <= SAME * law.normal:
+            followed = law.table[0]
+        elif change != 0.0:
+            followed = max(law.table[0] + apart / (1.0 - law.held), 0.0)
+        law.table[1], law.table_slope, law.table[0] = law.table[0], law.normal, followed
+        gain = law.held
+    square = v * v + slip * slip
+    direction = v / math.sqrt(square)
+    share = exp(-((v / joint.stribeck_velocity) ** 2))
+    load = joint.normal_load + followed
+    moving, sticking = joint.friction_coefficient * load, joint.breakaway * load
+    limit = moving + sticking * share
+    fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * sticking * share
+    law.force = -limit * direction - joint.viscous * v
+    steep = fall * direction + limit * slip * slip / (square * math.sqrt(square))
+    law.in_rate = -steep / (1.0 - gain) - joint.viscous
+    law.friction = limit * direction * v
+    law.damping = joint.viscous * v * v
+
+
+def friction_law(
+    coefficient: float,
+    slip_velocity: float,
+    *,
+    normal_load: float = 0.0,
+    breakaway: float = 0.0,
+    stribeck_velocity: float = 1.0,
+    viscous: float = 0.0,
+    load_of: str = "",
+    load_leg: int | None = None,
+) -> ForceLaw:
+    """Return the law of friction, Coulomb's by default; ``breakaway`` is what μ_s is above μ."""
+    parameters = {
+        "normal_load": normal_load,
+        "friction_coefficient": coefficient,
+        "breakaway": breakaway,
+        "stribeck_velocity": stribeck_velocity,
+        "slip_velocity": slip_velocity,
+        "viscous": viscous,
+        "extrapolates": 0.0 if load_leg is None else 1.0,
+    }
+    return ForceLaw(regularised, parameters, load_of=load_of, load_leg=load_leg)
+
+
+class JointFriction(OfJointKeys):
+    """Friction in an ideal joint, by its reaction or a stated load: Coulomb, Stribeck and viscous parts."""
+
+    TABLE: ClassVar[str] = "frictions"
+    METHOD: ClassVar[str] = "friction"
+    FORCE: ClassVar[str] = "friction force on the second body along the axis; none where the joint turns"
+    MOMENT: ClassVar[str] = "friction torque on the second body about the axis; none where it slides"
+    LAW: ClassVar = regularised
+    EXAMPLE: ClassVar[str] = (
+        ARM
+        + """[frictions.bearing]
+joint = "input"
+radius = "10 mm"
+normal_load = "40 N"
+friction_coefficient = 0.1
+static_coefficient = 0.15
+viscous = "5 N s/m"
+"""
+        + DRIVE
+    )
+
+    normal_load: float | None = quantity(
+        None,
+        "load N on the sliding surfaces; the reaction of the joint across its axis without it",
+        "",
+        ge=0,
+        example="40 N",
+    )
+    radius: float | None = quantity(
+        None, "radius at which a turning joint slides; a sliding joint has none", "", gt=0, example="10 mm"
+    )
+    friction_coefficient: float = number(0.1, "of sliding, mu", "assumed", ge=0, le=2)
+    static_coefficient: float | None = number(
+        None, "of breakaway, mu_s; that of sliding without it", "", ge=0, le=2, example="0.15"
+    )
+    stribeck_velocity: float = quantity("10 mm/s", "speed at which it has fallen by 63 %", "assumed", gt=0)
+    viscous: float = quantity("0 N s/m", "force over sliding speed", "assumed", ge=0, example="5 N s/m")
+    slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
+
+    @property
+    def without_friction(self) -> Self:
+        """The viscous part alone."""
+        return self.model_copy(update={"friction_coefficient": 0.0, "static_coefficient": None})
+
+    def legs(self, joints: Joints) -> tuple[Leg, ...]:
+        """Return the leg of the sliding distance: radius times angle, or position."""
+        static = self.static_coefficient
+        words = "the static coefficient is below that of sliding; friction cannot grow with speed here"
+        demand(static is None or static >= self.friction_coefficient, "static_coefficient", words)
+        turns = "angle" in joints[self.joint].kind.COORDINATES
+        if self.radius is None:
+            words = "a joint that turns needs the radius at which it slides"
+            demand(not turns, "radius", words)
+            return (self.leg_of(joints, "position", "friction without a radius"),)
+        return (self.leg_of(joints, "angle", "friction at a radius", self.radius),)
+
+    def force_law(self, joints: Joints) -> ForceLaw:
+        """Return the law, with what the static coefficient is above that of sliding."""
+        static = self.friction_coefficient if self.static_coefficient is None else self.static_coefficient
+        joint, own = joints[self.joint], self.normal_load is None
+        words = f"{self.joint} has clearance, and with it friction of its own: leave out this friction"
+        demand(not own or joint.real is None, "joint", words)
+        words = f"{joint.kind.named} has no reaction across its axis: give normal_load"
+        demand(not own or joint.kind.holds_across, "normal_load", words)
+        return friction_law(
+            self.friction_coefficient,
+            self.slip_velocity,
+            normal_load=self.normal_load or 0.0,
+            breakaway=static - self.friction_coefficient,
+            stribeck_velocity=self.stribeck_velocity,
+            viscous=self.viscous,
+            load_of=self.joint if own else "",
+        )

@@ -1,0 +1,30 @@
+"""Figures of a mechanism, in the order in which one reads them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tribodyn.figures import chart, energy, wear
+from tribodyn.figures.base import Animation, Family
+from tribodyn.mechanism.results.mechanism_energy import BALANCES
+from tribodyn.mechanism.figures import animation as film
+from tribodyn.mechanism.figures import joints
+from tribodyn.mechanism.figures import mechanism
+from tribodyn.mechanism.figures import solids
+from tribodyn.mechanism.sections.charts import CHARTS
+
+FIGURES: Final[dict[str, Family]] = {
+    family.name: family
+    for family in (
+        mechanism.FAMILY,
+        *map(chart.family, CHARTS),
+        joints.ORBITS,
+        joints.PRESSURE,
+        joints.FILM_PRESSURE,
+        joints.WEAR,
+        energy.family(BALANCES),
+        wear.HISTORY,
+    )
+}
+
+ANIMATION: Final = Animation(film.MechanismFilm, solids.solids)

@@ -1,0 +1,128 @@
+"""Joints with clearance: paths of the shafts, and maps of their surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.base import Family
+from tribodyn.figures.style import BLUE, GREY, INK, SMALL, caption, finish, note, sheet
+from tribodyn.figures.unrolled import COLOURS
+from tribodyn.mechanism.sections.joints import LAID_FLAT, MOST, WORN, real_joints, surfaces
+from tribodyn.views.series import peak
+from tribodyn.views.unrolled import best_cut, rolled
+from tribodyn.views.wear import fitting_unit
+
+_ACROSS: Final = 3
+"""Panels beside each other; one less where their names are long."""
+_LONG: Final = 16
+
+
+def draw_orbits(dataset: xr.Dataset) -> Figure:
+    """Draw the path of each shaft in its clearance circle [µm]."""
+    chosen = real_joints(dataset)
+    names = [str(dataset["joint"].values[joint]) for joint in chosen.joints]
+    figure, panels = _grid(dataset, f"{ORBITS.title}{chosen.which}", names, 2.9)
+    for axes, joint in zip(panels, chosen.joints, strict=False):
+        x, y = (1e6 * dataset["displacement"].values[:, joint, i] for i in range(2))
+        clearance = 1e6 * float(dataset["clearance"].values[joint])
+        reach = 1.25 * max(clearance, peak(x), peak(y))
+        axes.set_aspect("equal")
+        axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
+        axes.add_patch(Circle((0.0, 0.0), clearance, fill=False, edgecolor=GREY, linewidth=1.0))
+        axes.plot(x, y, color=BLUE, linewidth=0.7)
+        axes.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=INK, mew=1.1, zorder=5)
+        caption(axes, str(dataset["joint"].values[joint]))
+        finish(axes, "x [µm]", "y [µm]")
+    return figure
+
+
+def draw_maps(name: str, title: str, label: str, unit: str, dataset: xr.Dataset) -> Figure:
+    """Draw the largest values of a field on every surface that is not empty."""
+    found = [part for part in surfaces(dataset, name) if part[3].max(initial=0.0) > 0.0]
+    which = ""
+    if real_joints(dataset).which and len(found) > MOST:
+        largest = sorted(range(len(found)), key=lambda k: -float(found[k][3].max()))[:MOST]
+        found = [found[k] for k in sorted(largest)]
+        every = dataset.sizes["film" if "film" in dataset[name].dims else "surface"]
+        which = f", {MOST} surfaces of {every} with the largest values"
+    names = [surface for surface, *_ in found]
+    figure, panels = _grid(dataset, f"{title}{which}", names, 2.2)
+    for axes, (surface, place, theta, fields) in zip(panels, found, strict=False):
+        field = fields.max(axis=0)
+        shown, size = (unit, 1e6) if unit else fitting_unit(float(field.max()))
+        _draw_map(axes, place, theta, field / size)
+        caption(axes, surface)
+        text = f"largest {field.max() / size:.3g} {shown}"
+        axes.text(1.0, 1.04, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
+        finish(axes, "angle [°]", "[mm]")
+    if not found:
+        note(panels[0], f"no {label}")
+    return figure
+
+
+def _draw_map(axes: Axes, place: FloatArray, theta: FloatArray, field: FloatArray) -> None:
+    angle, values = rolled(theta, field, best_cut(theta, field.max(axis=1)))
+    axes.pcolormesh(angle, 1e3 * place, values.T, shading="gouraud", cmap=COLOURS, vmin=0.0, rasterized=True)
+    ticks = 90.0 * np.ceil(angle[0] / 90.0 - 1e-9) + 90.0 * np.arange(5)
+    axes.set_xticks(ticks, [f"{tick % 360:.0f}" for tick in ticks])
+    axes.set_xlim(angle[0], angle[-1])
+
+
+def _grid(
+    dataset: xr.Dataset, title: str, names: Sequence[str], height: float
+) -> tuple[Figure, Sequence[Axes]]:
+    """Return a sheet of panels for names, those that nothing is drawn in taken away."""
+    n, longest = len(names), max(map(len, names), default=0)
+    columns = min(max(n, 1), _ACROSS - (longest > _LONG))
+    rows = -(-max(n, 1) // columns)
+    figure = sheet(dataset, title, 0.5 + height * rows)
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes in panels[max(n, 1) :]:
+        axes.remove()
+    return figure, list(panels)
+
+
+ORBITS: Final = Family(
+    name="orbits",
+    title="Shafts in their bores",
+    caption=(
+        "Paths of the middles of the shafts across their axes. The circle is the clearance: beyond it the "
+        "mean planes of the surfaces overlap."
+    ),
+    needs=("displacement", "clearance", "joint", "surface"),
+    draw=draw_orbits,
+)
+PRESSURE: Final = Family(
+    name="pressure_maps",
+    title="Contact pressure, largest in the cycle",
+    caption=LAID_FLAT,
+    needs=("pressure_cycle", "surface"),
+    draw=partial(
+        draw_maps, "pressure_cycle", "Contact pressure, largest in the cycle", "contact pressure", "MPa"
+    ),
+)
+FILM_PRESSURE: Final = Family(
+    name="film_maps",
+    title="Film pressure, largest in the cycle",
+    caption="Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
+    needs=("film_pressure_cycle", "film"),
+    draw=partial(
+        draw_maps, "film_pressure_cycle", "Film pressure, largest in the cycle", "film pressure", "MPa"
+    ),
+)
+WEAR: Final = Family(
+    name="wear_maps",
+    title="Wear depth",
+    caption=WORN,
+    needs=("wear_depth", "surface"),
+    draw=partial(draw_maps, "wear_depth", "Wear depth", "wear", ""),
+)

@@ -1,0 +1,82 @@
+"""Joints that are only their constraint equations: lower pairs, a ball on a pin, a rigid connection."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from tribodyn.mechanism.joints.joint_type import ALIGNED, AT_POINT, NO_TURN, ON_AXIS, JointType, Row
+
+
+class Fixed(JointType):
+    """Two bodies in one piece."""
+
+    NAME: ClassVar[str] = "fixed"
+    MEANING: ClassVar[str] = "nothing moves"
+    ROWS: ClassVar[tuple[Row, ...]] = (*AT_POINT, *ALIGNED, NO_TURN)
+
+
+class Revolute(JointType):
+    """A hinge."""
+
+    NAME: ClassVar[str] = "revolute"
+    MEANING: ClassVar[str] = "turns about `axis`"
+    ROWS: ClassVar[tuple[Row, ...]] = (*AT_POINT, *ALIGNED)
+    AXIS: ClassVar[str] = "axis"
+    COORDINATES: ClassVar[tuple[str, ...]] = ("angle",)
+    SHAPE: ClassVar[str] = "cylinder"
+    FACES: ClassVar[bool] = True
+    CLEARANCE: ClassVar[str] = "pin in a bore, with end faces where `axial` is given"
+
+
+class Spherical(JointType):
+    """A ball joint."""
+
+    NAME: ClassVar[str] = "spherical"
+    MEANING: ClassVar[str] = "turns about `point`"
+    ROWS: ClassVar[tuple[Row, ...]] = AT_POINT
+    SHAPE: ClassVar[str] = "sphere"
+    CLEARANCE: ClassVar[str] = "ball in a race around `axis`"
+
+
+class Cylindrical(JointType):
+    """A pin that turns and slides in a sleeve."""
+
+    NAME: ClassVar[str] = "cylindrical"
+    MEANING: ClassVar[str] = "turns about and slides along `axis`"
+    ROWS: ClassVar[tuple[Row, ...]] = (*ON_AXIS, *ALIGNED)
+    AXIS: ClassVar[str] = "axis"
+    COORDINATES: ClassVar[tuple[str, ...]] = ("angle", "position")
+    SHAPE: ClassVar[str] = "cylinder"
+    CLEARANCE: ClassVar[str] = "pin in a bore"
+
+
+class Prismatic(JointType):
+    """A slide."""
+
+    NAME: ClassVar[str] = "prismatic"
+    MEANING: ClassVar[str] = "slides along `axis`"
+    ROWS: ClassVar[tuple[Row, ...]] = (*ON_AXIS, *ALIGNED, NO_TURN)
+    AXIS: ClassVar[str] = "axis"
+    COORDINATES: ClassVar[tuple[str, ...]] = ("position",)
+
+
+class PinSlot(JointType):
+    """A ball of the second body on a pin of the first."""
+
+    NAME: ClassVar[str] = "pin-slot"
+    MEANING: ClassVar[str] = "a ball of the second body slides along a pin of the first"
+    ROWS: ClassVar[tuple[Row, ...]] = ON_AXIS
+    AXIS: ClassVar[str] = "axis of the pin"
+    COORDINATES: ClassVar[tuple[str, ...]] = ("position",)
+    SHAPE: ClassVar[str] = "ball"
+    CLEARANCE: ClassVar[str] = 'ball in a bore; `shape = "cylinder"` for a pin that does not tilt in it'
+
+
+class Planar(JointType):
+    """A plate on a plane."""
+
+    NAME: ClassVar[str] = "planar"
+    MEANING: ClassVar[str] = "slides and turns across `axis`"
+    ROWS: ClassVar[tuple[Row, ...]] = (AT_POINT[2], *ALIGNED)
+    AXIS: ClassVar[str] = "normal of the plane"
+    COORDINATES: ClassVar[tuple[str, ...]] = ("angle",)

@@ -1,0 +1,111 @@
+"""Common parts of the types of joints.
+
+A type of ideal joint is a list of constraint equations on the displacement and the rotation of its second
+body against the first, in axes of which z is the axis of the joint.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Final
+
+from tribodyn.cases.case import NamedGroup
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels.mechanism.data import DIRECTION, POINT
+from tribodyn.mechanism.frames import frame
+
+Row = tuple[int, int, int]
+"""A constraint equation: its kind, axis of the first body, axis of the second one; 0, 1, 2 for x, y, z."""
+
+AT_POINT: Final[tuple[Row, ...]] = tuple((POINT, i, 0) for i in range(3))
+"""The origins of both bodies coincide."""
+ON_AXIS: Final = AT_POINT[:2]
+"""That of the second body stays on the axis."""
+ALIGNED: Final[tuple[Row, ...]] = ((DIRECTION, 0, 2), (DIRECTION, 1, 2))
+"""The axis of the second body stays parallel to that of the first."""
+NO_TURN: Final[Row] = (DIRECTION, 1, 0)
+"""Of aligned bodies, the second does not turn about the axis."""
+
+
+class JointType:
+    """Base of the types of joints; a member says all that is to be known of its type.
+
+    Attributes
+    ----------
+    NAME
+        Its name in case files; the builder's method has underscores for hyphens.
+    MEANING
+        What it lets move, in a few words; keys in backquotes.
+    ROWS
+        What vanishes in the ideal joint.
+    AXIS, SECOND_AXIS
+        What its axes are called; empty where it has none.
+    COORDINATES
+        What can be driven, and followed by elements: ``angle``, ``position``.
+    SHAPE
+        Name of the shape of its clearance, unless the case gives another one; empty where it is always ideal.
+    FACES
+        Whether a clearance may have end faces, which hold the pin along the axis.
+    CLEARANCE
+        What a clearance makes of it, for the manual.
+    KEYS
+        Keys of its own, beside those of all joints; other types refuse them.
+    NEEDED
+        Those of them that the builder's method takes as required, with values for its example.
+    """
+
+    NAME: ClassVar[str]
+    MEANING: ClassVar[str]
+    ROWS: ClassVar[tuple[Row, ...]] = ()
+    AXIS: ClassVar[str] = ""
+    SECOND_AXIS: ClassVar[str] = ""
+    COORDINATES: ClassVar[tuple[str, ...]] = ()
+    SHAPE: ClassVar[str] = ""
+    FACES: ClassVar[bool] = False
+    CLEARANCE: ClassVar[str] = ""
+    KEYS: ClassVar[type[NamedGroup]] = NamedGroup
+    NEEDED: ClassVar[dict[str, object]] = {}
+
+    @property
+    def named(self) -> str:
+        """Name with its article: ``a revolute joint``."""
+        return f"{'an' if self.NAME[0] in 'aeio' else 'a'} {self.NAME} joint"
+
+    @property
+    def held(self) -> list[int]:
+        """Components of the displacement between its points that the ideal joint holds, of 0, 1, 2."""
+        return [axis for kind, axis, _ in self.ROWS if kind == POINT]
+
+    @property
+    def holds_across(self) -> bool:
+        """Whether it has a reaction across its axis."""
+        return bool({0, 1} & set(self.held))
+
+    @property
+    def example(self) -> dict[str, object]:
+        """Keys of a joint of this type beside its bodies: a complete example."""
+        axes = {"axis": [0, 0, 1]} if self.AXIS else {}
+        second = {"second_axis": [1, 0, 0]} if self.SECOND_AXIS else {}
+        return {"point": "0, 0, 0 mm", **axes, **second, **self.NEEDED}
+
+    def check(self, keys: Any) -> None:
+        """Refuse keys that do not fit; ``keys`` are those of the joint.
+
+        Raises
+        ------
+        InputError
+            With the reason; its key is the one of the table of the joint.
+        """
+
+    def shaft_axes(self, first: FloatArray, second: FloatArray) -> FloatArray:
+        """Return the axes of the second body as columns, shape (3, 3), from the axes of the joint (3,)."""
+        return frame(first, second)
+
+    def fill(self, record: Any, keys: Any) -> None:
+        """Fill the record of the coupling beside its constraint equations; by default nothing."""
+
+
+def words_of(rows: tuple[Row, ...]) -> tuple[str, str]:
+    """Return constraint equations in words: coordinates of the origin, and directions at right angles."""
+    places = ["xyz"[axis] for kind, axis, _ in rows if kind == POINT]
+    directions = [f"{'xyz'[axis]}–{'xyz'[other]}'" for kind, axis, other in rows if kind == DIRECTION]
+    return ", ".join(places), ", ".join(directions)

@@ -1,0 +1,1 @@
+"""Keys of a mechanism: bodies, pairs of surfaces, drives, loads, outputs."""

@@ -1,0 +1,154 @@
+"""Mass properties of simple solids of uniform density, as defaults of a body's keys.
+
+A rod is round and goes from one point to another; a cylinder, solid or hollow, is round about the first
+principal axis of the body; a box has its sides along the principal axes; a mesh is a closed surface of
+triangles.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import Any, Final
+
+from tribodyn.cases.case import demand
+from tribodyn.cases.fields import Vector
+from tribodyn.cases.keys import Value
+from tribodyn.core.errors import below
+
+Given = Mapping[str, Any]
+"""Values of the keys of a body [SI]."""
+
+NEEDED: Final[Mapping[str, tuple[str, ...]]] = {
+    "rod": ("start", "end", "radius"),
+    "cylinder": ("centre", "length", "radius"),
+    "box": ("centre", "size"),
+    "mesh": ("facets",),
+}
+"""Keys that each solid needs."""
+OPTIONAL: Final[Mapping[str, tuple[str, ...]]] = {
+    "cylinder": ("inner_radius",),
+    "mesh": ("scale", "scaled_about"),
+}
+SIZES: Final = tuple(dict.fromkeys(key for keys in (*NEEDED.values(), *OPTIONAL.values()) for key in keys))
+_FILES: Final = {"facets": 'a mesh needs its triangles, such as mesh = "lever.stl"'}
+FOLLOWING: Final = ("mass", "centre", "inertia", "first_axis", "second_axis")
+
+
+def of_bodies(given: Mapping[str, Value]) -> dict[str, Value]:
+    """Return mass, centre, inertia and axes of all bodies that have a shape, by dotted path.
+
+    Parameters
+    ----------
+    given
+        What was given for a case, by dotted path.
+    """
+    found: dict[str, Value] = {}
+    for prefix in _with_shape(given):
+        keys = {path.removeprefix(prefix): value for path, value in given.items() if path.startswith(prefix)}
+        if keys["shape"] in NEEDED:
+            with below(prefix.rstrip(".")):
+                check(keys)
+            found |= {prefix + key: value for key, value in of_body(keys).items()}
+    return found
+
+
+def following(given: Collection[str]) -> tuple[str, ...]:
+    """Return the paths of keys whose values follow from shapes and were not given."""
+    return tuple(
+        prefix + key for prefix in _with_shape(given) for key in FOLLOWING if prefix + key not in given
+    )
+
+
+def _with_shape(given: Iterable[str]) -> Iterator[str]:
+    for path in given:
+        if path.startswith("bodies.") and path.endswith(".shape"):
+            yield path.removesuffix("shape")
+
+
+def of_body(given: Given) -> dict[str, Any]:
+    """Return the properties that follow from the shape of a body."""
+    volume, squares, placed = _SOLIDS[given["shape"]](given)
+    mass = given["mass"] if "mass" in given else given["density"] * volume
+    return {"mass": mass, "inertia": tuple(mass * square for square in squares), **placed}
+
+
+def check(given: Given) -> None:
+    """Refuse a shape without its sizes, and with sizes of another one."""
+    shape = given["shape"]
+    known = (*NEEDED[shape], *OPTIONAL.get(shape, ()), "density")
+    for key in NEEDED[shape]:
+        words = _FILES.get(key, f"a {shape} needs {', '.join(NEEDED[shape])}")
+        demand(key in given, key, words)
+    for key in SIZES:
+        demand(key in known or key not in given, key, f"a {shape} has {', '.join(known)}")
+    demand("density" in given or "mass" in given, "density", f"a {shape} needs its density, or its mass")
+    smaller = "inner_radius" not in given or given["inner_radius"] < given["radius"]
+    demand(smaller, "inner_radius", "the inner radius is smaller than radius")
+    lengths = given.get("size", (1.0,))
+    demand(min(lengths) > 0.0, "size", "three lengths above zero")
+    ends = shape == "rod" and given["start"] == given["end"]
+    demand(not ends, "end", "the rod begins and ends at one point")
+
+
+Solid = tuple[float, Vector, dict[str, Any]]
+"""Volume [m³], principal moments of inertia per mass [m²], and what else follows."""
+
+
+def _round(length: float, radius: float, inner: float = 0.0) -> tuple[float, Vector]:
+    """Return volume and inertia per mass of a hollow cylinder along the first axis."""
+    squares = (radius * radius) + (inner * inner)
+    across = squares / 4.0 + (length * length) / 12.0
+    return math.pi * ((radius * radius) - (inner * inner)) * length, (squares / 2.0, across, across)
+
+
+def _rod(given: Given) -> Solid:
+    start, end = given["start"], given["end"]
+    length = math.dist(start, end)
+    volume, inertia = _round(length, given["radius"])
+    axis = tuple((b - a) / length for a, b in zip(start, end, strict=True))
+    centre = tuple(0.5 * (a + b) for a, b in zip(start, end, strict=True))
+    return volume, inertia, {"centre": centre, "first_axis": axis, "second_axis": _across(axis)}
+
+
+def _across(axis: tuple[float, ...]) -> Vector:
+    """Return a unit vector at right angles to another: of that and the coordinate axis least along it."""
+    least = min(range(3), key=lambda i: abs(axis[i]))
+    e = [float(i == least) for i in range(3)]
+    x, y, z = axis
+    cross = (y * e[2] - z * e[1], z * e[0] - x * e[2], x * e[1] - y * e[0])
+    length = math.hypot(*cross)
+    return cross[0] / length, cross[1] / length, cross[2] / length
+
+
+def _cylinder(given: Given) -> Solid:
+    return *_round(given["length"], given["radius"], given.get("inner_radius", 0.0)), {}
+
+
+def _box(given: Given) -> Solid:
+    a, b, c = given["size"]
+    inertia = ((b * b + c * c) / 12.0, (a * a + c * c) / 12.0, (a * a + b * b) / 12.0)
+    return a * b * c, inertia, {}
+
+
+def _mesh(given: Given) -> Solid:
+    # Imported here: reading other cases needs no arrays.
+    from tribodyn.mechanism.model.mesh_solid import mesh_solid
+
+    solid, scale = mesh_solid(given["facets"]), given.get("scale", 1.0)
+    centre = solid.centre
+    if "scaled_about" in given:
+        centre = given["scaled_about"] + scale * (centre - given["scaled_about"])
+    placed = {"centre": centre, "first_axis": solid.axes[0], "second_axis": solid.axes[1]}
+    inertia = tuple((scale * scale * solid.squares).tolist())
+    volume = scale**3 * solid.volume
+    demand(volume > 0.0 and min(inertia) > 0.0, "facets", "the solid is too small to have a mass")
+    return volume, inertia, {key: tuple(v.tolist()) for key, v in placed.items()}
+
+
+_SOLIDS: Final[Mapping[str, Callable[[Given], Solid]]] = {
+    "rod": _rod,
+    "cylinder": _cylinder,
+    "box": _box,
+    "mesh": _mesh,
+}

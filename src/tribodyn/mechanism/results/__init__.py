@@ -1,0 +1,1 @@
+"""Results of a mechanism: variables, key results, energy balance, checks, outputs."""

@@ -1,0 +1,59 @@
+"""Coordinates that tables of loads follow in a run, as results hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+import numpy as np
+
+from tribodyn.cases.beyond import FollowedTable
+from tribodyn.cases.directions import unit
+from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
+from tribodyn.mechanism.model.drives_and_loads import LoadKeys
+from tribodyn.mechanism.mechanism_case import MechanismCase
+
+_Z: Final = 2
+OBSERVED: Final = {
+    "angles": "joint_angle",
+    "positions": "displacement",
+    "speeds": "relative_rate",
+    "velocities": "relative_velocity",
+}
+"""Coordinate of a joint, or of the load itself, that a table follows, by its knots."""
+
+
+def followed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
+    """Return the coordinate of a load's table, shape (n_t,): that of a joint with its speed, or its own.
+
+    ``couplings`` are observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
+    """
+    if not table.follows:
+        return _opposed(case, couplings, table)
+    return coordinate(case, couplings, table.follows, table.over)
+
+
+def coordinate(case: MechanismCase, couplings: Mapping[str, FloatArray], joint: str, over: str) -> FloatArray:
+    """Return a coordinate of a joint or its rate, by a name of ``OBSERVED``, shape (n_t,)."""
+    own = couplings[OBSERVED[over]][:, list(case.joints).index(joint)]
+    return np.asarray(case.joints[joint].sign * (own if own.ndim == 1 else own[:, _Z]))
+
+
+def followed_by(load: LoadKeys) -> Iterator[str]:
+    """Yield the variables of a result that force and moment of a load follow."""
+    if load.along is not None:
+        yield from (OBSERVED[over] for over in load.joint_axes)
+    if load.frame == "motion":
+        yield from ("velocity", "angular_velocity")
+
+
+def _opposed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
+    """Return the speed that a load opposes, shape (n_t,)."""
+    name = table.path.split(".")[1]
+    place = len(case.joints) + len(case.springs) + list(case.loads).index(name)
+    twist = couplings[OBSERVED[table.over]][:, place]
+    direction = case.loads[name].direction
+    if direction is None:
+        return np.asarray(np.linalg.norm(twist, axis=1))
+    return np.asarray(np.abs(dense.product(twist, np.array(unit(direction, "direction")))))

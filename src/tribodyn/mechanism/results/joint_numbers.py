@@ -1,0 +1,240 @@
+"""Key results of each joint by its name; the sustained maximum of a quantity is shown with its peak."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Final
+
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.base import ByPart
+from tribodyn.mechanism.results.readings import (
+    above_zero,
+    least,
+    lengths,
+    of_joint,
+    of_surfaces,
+    offset,
+)
+from tribodyn.results.reading import column, of_part, peak, settled, sustained, time_mean
+from tribodyn.results.summary import KeyResult
+from tribodyn.results.wear_life import wear_life, wear_rate
+
+
+def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:
+    """Return the largest value outside the impacts after reversals, of one joint or of all of them."""
+
+    def value(dataset: xr.Dataset, joint: str) -> float:
+        values = column(dataset, f"{quantity}_outside")
+        return above_zero(peak(values[:, of_joint(dataset, joint)] if joint else values)) * scale
+
+    def made(joint: str) -> KeyResult:
+        name = label if joint else f"{label} in a joint"
+        number = KeyResult(
+            f"{name}, largest outside impacts",
+            unit,
+            "Joints" if joint else "Load",
+            "Once the impacts after reversals of the drive have died away.",
+            lambda d: value(d, joint),
+        )
+        return number.of_part(joint) if joint else number
+
+    return made
+
+
+OUTSIDE: Final[dict[str, ByPart]] = {
+    "force_outside_N": _outside("Force", "N", "joint_force"),
+    "pressure_outside_MPa": _outside("Contact pressure", "MPa", "pressure", scale=1e-6),
+    "offset_outside_um": _outside("Offset", "µm", "offset", scale=1e6),
+    "drive_moment_outside_Nm": _outside("Drive moment", "N m", "drive_moment"),
+}
+"""Numbers of mechanisms whose drives reverse, by name."""
+
+
+def pair(
+    names: tuple[str, str],
+    label: str,
+    unit: str,
+    group: str,
+    meaning: str,
+    values: Callable[[xr.Dataset], FloatArray],
+    *,
+    scale: float = 1.0,
+) -> dict[str, KeyResult]:
+    """Return the sustained maximum and the peak with impacts, by their names.
+
+    Parameters
+    ----------
+    names
+        Of the two.
+    label, unit, group, meaning
+        As of a :class:`~tribodyn.results.summary.KeyResult`; the meaning ends in the share of time.
+    values
+        The quantities over time, shape (n_t,) or (n_t, n).
+    scale
+        Their unit over that of the number.
+    """
+    quiet, loud = names
+    return {
+        quiet: KeyResult(
+            f"{label}, sustained",
+            unit,
+            group,
+            f"{meaning} for 99 % of the time; impacts excluded.",
+            lambda d: above_zero(sustained(d, values(d))) * scale,
+        ),
+        loud: KeyResult(
+            f"{label}, peak",
+            unit,
+            group,
+            "Largest value at any step of the integration, impacts included.",
+            lambda d: above_zero(peak(settled(d, values(d)))) * scale,
+            over="cycles",
+            span="over {} cycle",
+        ),
+    }
+
+
+def _named(
+    label: str, unit: str, group: str, meaning: str, compute: Callable[[xr.Dataset, int], float]
+) -> ByPart:
+    def made(joint: str) -> KeyResult:
+        number = KeyResult(label, unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
+        return number.of_part(joint)
+
+    return made
+
+
+def _pair_named(
+    names: tuple[str, str],
+    label: str,
+    unit: str,
+    meaning: str,
+    values: Callable[[xr.Dataset, int], FloatArray],
+    *,
+    scale: float = 1.0,
+) -> dict[str, ByPart]:
+    """Return the pair of numbers of a joint, see :func:`pair`."""
+
+    def made(name: str, joint: str) -> KeyResult:
+        both = pair(
+            names,
+            label,
+            unit,
+            "Joints",
+            meaning,
+            lambda d: values(d, of_joint(d, joint)),
+            scale=scale,
+        )
+        return both[name].of_part(joint)
+
+    return {name: partial(made, name) for name in names}
+
+
+BY_JOINT: Final[dict[str, ByPart]] = {
+    **OUTSIDE,
+    **_pair_named(
+        ("force_lasting_N", "force_max_N"),
+        "Force",
+        "N",
+        "Largest force in this joint",
+        lambda d, j: of_part(d, "reaction_force", j, lengths),
+    ),
+    "force_mean_N": _named(
+        "Force, mean",
+        "N",
+        "Joints",
+        "Mean force in this joint; wear is proportional to it.",
+        lambda d, j: time_mean(d, of_part(d, "reaction_force", j, lengths)),
+    ),
+    "offset_max_um": _named(
+        "Offset, largest",
+        "µm",
+        "Joints",
+        "Largest distance of the pin from the centre of the bore.",
+        lambda d, j: peak(settled(d, offset(d, j))) * 1e6,
+    ),
+    **_pair_named(
+        ("pressure_lasting_MPa", "peak_pressure_MPa"),
+        "Contact pressure",
+        "MPa",
+        "Highest pressure in this joint",
+        lambda d, j: of_part(d, "pressure_max", j),
+        scale=1e-6,
+    ),
+    "friction_heat_J": _named(
+        "Dry friction heat, whole run",
+        "J",
+        "Joints",
+        "Heat of dry friction in this joint since the start of the run; its oil film is not counted.",
+        lambda d, j: float(column(d, "joint_friction")[-1, j]) if of_surfaces(d, j).size else math.nan,
+    ),
+    "flash_temperature_K": _named(
+        "Flash temperature",
+        "K",
+        "Joints",
+        "How much warmer than the surfaces the asperities of this joint get, an estimate.",
+        lambda d, j: float(column(d, "flash_temperature")[j]),
+    ),
+    "film_pressure_max_MPa": _named(
+        "Film pressure, peak",
+        "MPa",
+        "Joints",
+        "Largest pressure in the oil film of this joint.",
+        lambda d, j: peak(settled(d, of_part(d, "film_pressure_max", j))) * 1e-6,
+    ),
+    "film_thickness_min_um": _named(
+        "Film thickness, smallest",
+        "µm",
+        "Joints",
+        "Smallest gap of the oil film of this joint.",
+        lambda d, j: least(settled(d, of_part(d, "film_thickness_min", j))) * 1e6,
+    ),
+    "wear_depth_nm": _named(
+        "Wear depth",
+        "nm",
+        "Joints",
+        "Largest wear depth of this joint.",
+        lambda d, j: peak(column(d, "wear_depth")[of_surfaces(d, j)]) * 1e9,
+    ),
+    "wear_rate_nm_per_1000_cycles": _named(
+        "Wear rate",
+        "nm per 1000 cycles",
+        "Joints",
+        "Growth of the largest wear depth of this joint, at the last stop of a campaign or in this run.",
+        lambda d, j: 1e12 * wear_rate(d, of_surfaces(d, j)),
+    ),
+    "wear_life_cycles": _named(
+        "Life by depth",
+        "cycles",
+        "Joints",
+        "Drive cycles until this joint is worn to the depth limit, both partners together, at its last "
+        "rate; all of them, those of the campaign included.",
+        lambda d, j: wear_life(d, of_surfaces(d, j)),
+    ),
+    "bore_life_cycles": _named(
+        "Life of the bore",
+        "cycles",
+        "Joints",
+        "Drive cycles until the bore alone is worn to the depth limit, where both partners wear.",
+        lambda d, j: wear_life(d, of_surfaces(d, j), "bore"),
+    ),
+    "shaft_life_cycles": _named(
+        "Life of the shaft",
+        "cycles",
+        "Joints",
+        "Drive cycles until the shaft alone is worn to the depth limit, where both partners wear.",
+        lambda d, j: wear_life(d, of_surfaces(d, j), "shaft"),
+    ),
+    "partner_wear_depth_nm": _named(
+        "Wear depth of the partner",
+        "nm",
+        "Joints",
+        "Its part of the wear depth of this joint, where both wear.",
+        lambda d, j: peak(column(d, "partner_wear_depth")[of_surfaces(d, j)]) * 1e9,
+    ),
+}
+"""Numbers of each joint, by what stands before its name."""

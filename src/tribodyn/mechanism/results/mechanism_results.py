@@ -1,0 +1,191 @@
+"""Key results of a mechanism as a whole."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.mechanism.results.mechanism_energy import WHOLE
+from tribodyn.mechanism.results.joint_numbers import OUTSIDE, pair
+from tribodyn.mechanism.results.readings import (
+    above_zero,
+    least,
+    offset,
+    sizes,
+)
+from tribodyn.results.reading import (
+    column,
+    in_settled,
+    peak,
+    period,
+    reversals_held,
+    settled,
+    time_mean,
+)
+from tribodyn.results.summary import KeyResult
+from tribodyn.results.wear_numbers import WEAR_NUMBERS
+
+_ROUNDING: Final = 1e-9
+
+
+def _cycles(dataset: xr.Dataset) -> float:
+    """Return the number of whole cycles evaluated; NaN for none."""
+    whole = math.floor(column(dataset, "time")[-1] / period(dataset) + _ROUNDING)
+    return above_zero(whole if in_settled(dataset)[0] else whole - 1)
+
+
+def _scatter(dataset: xr.Dataset) -> float:
+    """Return by how much the largest forces of the cycles looked at differ, of their mean [%]."""
+    time, n = settled(dataset, column(dataset, "time")), int(_cycles(dataset))
+    force = settled(dataset, sizes(dataset, "reaction_force").max(axis=1))
+    edges = np.searchsorted(time, time[0] + period(dataset) * np.arange(1, n))
+    found = np.array([part.max() for part in np.split(force, edges)])
+    return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
+
+
+def _power(dataset: xr.Dataset) -> float:
+    """Return the mean power put in [W]: the rate of stored energy and heat by the energy balance.
+
+    The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
+    """
+    time = column(dataset, "time")
+    gains = np.sum([column(dataset, name) for name in WHOLE.gained if name in dataset.variables], axis=0)
+    works = np.ptp(column(dataset, "energy_in")) > _ROUNDING * np.ptp(column(dataset, "energy_kinetic"))
+    return float((gains[-1] - gains[0]) / (time[-1] - time[0])) if works else math.nan
+
+
+KEY_RESULTS: Final[dict[str, KeyResult]] = {
+    "reversals": KeyResult(
+        "Reversals held",
+        "",
+        "Load",
+        "Reversals of a drive in this result with the impacts that follow them.",
+        reversals_held,
+        count=True,
+    ),
+    "cycles": KeyResult(
+        "Cycles evaluated",
+        "",
+        "Load",
+        "Whole cycles that peaks are taken over; of several, the first is left out as transient.",
+        _cycles,
+        count=True,
+    ),
+    **pair(
+        ("joint_force_lasting_N", "joint_force_max_N"),
+        "Force in a joint",
+        "N",
+        "Load",
+        "Largest force that any joint carries",
+        lambda d: sizes(d, "reaction_force"),
+    ),
+    **pair(
+        ("pressure_lasting_MPa", "peak_pressure_MPa"),
+        "Contact pressure",
+        "MPa",
+        "Load",
+        "Highest pressure in any joint, to compare with the hardness",
+        lambda d: column(d, "pressure_max"),
+        scale=1e-6,
+    ),
+    **{name: made("") for name, made in OUTSIDE.items()},
+    "flash_temperature_K": KeyResult(
+        "Flash temperature, largest",
+        "K",
+        "Load",
+        "How much warmer than the surfaces their asperities get in any joint, an estimate, where pressure "
+        "times speed is largest.",
+        lambda d: peak(column(d, "flash_temperature")),
+        digits=2,
+    ),
+    **pair(
+        ("drive_moment_lasting_Nm", "drive_moment_max_Nm"),
+        "Drive moment",
+        "N m",
+        "Drive",
+        "Largest moment of a motor",
+        lambda d: column(d, "drive_moment"),
+    ),
+    **pair(
+        ("drive_force_lasting_N", "drive_force_max_N"),
+        "Drive force",
+        "N",
+        "Drive",
+        "Largest force of an actuator",
+        lambda d: column(d, "drive_force"),
+    ),
+    "power_mean_W": KeyResult(
+        "Power put in, mean", "W", "Drive", "Mean power of drives and loads over the run.", _power
+    ),
+    "offset_max_um": KeyResult(
+        "Offset in a joint, largest",
+        "µm",
+        "Accuracy",
+        "Largest distance of a pin from the centre of its bore.",
+        lambda d: peak(settled(d, offset(d))) * 1e6,
+    ),
+    "friction_heat_J": KeyResult(
+        "Dry friction heat, whole run",
+        "J",
+        "Loss",
+        "Heat of dry friction in all joints since the start of the run; oil films are not counted.",
+        lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
+    ),
+    "film_pressure_max_MPa": KeyResult(
+        "Film pressure, peak",
+        "MPa",
+        "Oil film",
+        "Largest pressure in the oil film of any joint.",
+        lambda d: peak(settled(d, column(d, "film_pressure_max"))) * 1e-6,
+    ),
+    "film_thickness_min_um": KeyResult(
+        "Film thickness, smallest",
+        "µm",
+        "Oil film",
+        "Smallest gap of any oil film; below a few rms roughnesses asperities carry a part of the load.",
+        lambda d: least(settled(d, column(d, "film_thickness_min"))) * 1e6,
+    ),
+    "film_power_mean_W": KeyResult(
+        "Film friction power, mean",
+        "W",
+        "Oil film",
+        "Mean power that all oil films dissipate.",
+        lambda d: time_mean(d, np.nansum(column(d, "film_power"), axis=1)),
+    ),
+    "wear_depth_max_nm": KeyResult(
+        "Wear depth, largest",
+        "nm",
+        "Wear",
+        "Largest wear depth of any joint.",
+        lambda d: peak(column(d, "wear_depth")) * 1e9,
+    ),
+    **WEAR_NUMBERS,
+    "cycle_scatter_percent": KeyResult(
+        "Scatter of the cycles",
+        "%",
+        "Trust",
+        "Range of the largest forces of single cycles over their mean; needs three cycles.",
+        _scatter,
+        digits=2,
+    ),
+    "energy_residual_percent": KeyResult(
+        "Energy residual",
+        "%",
+        "Trust",
+        "Error of the energy balance over its largest term.",
+        lambda d: 100.0 * float(d.attrs["energy_residual"]),
+    ),
+}
+KEY_NUMBERS: Final = (
+    "frequency_Hz_*",
+    "error_lasting_*",
+    "joint_force_lasting_N",
+    "peak_pressure_MPa",
+    "offset_max_um",
+    "drive_moment_lasting_Nm",
+    "joint_force_max_N",
+    "energy_residual_percent",
+)

@@ -1,0 +1,76 @@
+"""Effect of temperatures on the clearances of joints, as results hold it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.signals import begun
+from tribodyn.mechanisms.bushing import of_clearances, of_heat
+from tribodyn.mechanisms.checks import named
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.run_keys import ROWS
+
+_FRICTION: Final = "joint.friction_coefficient"
+"""Name of the friction of a joint in tables of properties."""
+
+
+def opens(model: Model) -> list[bool]:
+    """Return of each joint with clearance whether it follows temperatures over time."""
+    return [any(opening is not None for opening in real.openings) for real in model.clearances.values()]
+
+
+def from_time(model: Model, time: float) -> Model:
+    """Return a mechanism whose clearances are those of its temperatures from a time on [s]."""
+    if time == 0.0:
+        return model
+    clearances = {}
+    for name, real in model.clearances.items():
+        radial, axial = (None if one is None else begun(one, time) for one in real.openings)
+        clearances[name] = replace(real, openings=(radial, axial))
+    return replace(model, clearances=clearances)
+
+
+def openings(model: Model, t: FloatArray) -> FloatArray:
+    """Return the growth of radial clearances and plays by temperature at times [m], shape (n_t, n, 2).
+
+    The joints are those with clearance.
+    """
+    found = np.zeros((t.size, len(model.clearances), 2))
+    for k, real in enumerate(model.clearances.values()):
+        for which, opening in enumerate(real.openings):
+            if opening is not None:
+                found[:, k, which] = opening(t)
+    return found
+
+
+def radial_clearances(model: Model, t: FloatArray) -> dict[str, FloatArray]:
+    """Return the radial clearances of all joints over time [m], by name; nothing where all are constant."""
+    if not any(opens(model)):
+        return {}
+    found = np.full((t.size, len(model.joints)), np.nan)
+    at_start = np.array([real.shape.clearance for real in model.clearances.values()])
+    found[:, model.real] = at_start + openings(model, t)[..., 0]
+    return {"radial_clearance": found}
+
+
+def of_temperatures(model: Model) -> list[str]:
+    """Return the clearances and materials that differ at the temperatures of the run, in words."""
+    over_time = radial_clearances(model, np.linspace(0.0, model.case.duration, ROWS))
+    said = []
+    for number, (name, hot) in zip(model.real, model.clearances.items(), strict=True):
+        keys = model.case.joints[name].real
+        assert keys is not None
+        if hot.openings[0] is not None:
+            own = over_time["radial_clearance"][:, number]
+            said += named(name, [of_clearances(float(own[0]), float(own[-1]), float(own.min()))])
+        elif keys.radial is not None:
+            found = keys.temperature.properties_at_start
+            kept = {path: ends for path, ends in found.items() if path != _FRICTION}
+            if _FRICTION in found and found[_FRICTION][1] == keys.friction_coefficient:
+                kept[_FRICTION] = found[_FRICTION]
+            said += named(name, [of_heat(keys.radial, hot.shape.clearance, kept)])
+    return said

@@ -1,0 +1,101 @@
+"""Variables of the outputs of a mechanism in results."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.shapes import Ball, Cylinder, Sphere
+from tribodyn.mechanism.model.drives_and_loads import GIVEN
+from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.results.followed import coordinate
+from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
+from tribodyn.mechanism.analyses.kinematics import velocity_ratios
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.assembly.output_values import Output
+from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, superposed
+from tribodyn.mechanisms.output_instants import errors_at
+from tribodyn.mechanisms.output_keys import Instant, instant_coordinates, instants_of
+
+
+def kinematic_columns(
+    assembly: Assembly, outputs: Sequence[Output], times: FloatArray, couplings: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return velocity ratios of outputs, and their errors by superposition of the joints with clearance.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism of ideal joints.
+    outputs
+        At least one.
+    times
+        Rising, from 0 [s], shape (n_t,).
+    couplings
+        What is observed of joints, see :class:`~.variables.Observed`.
+    """
+    case = assembly.model.case
+    shape = (times.size, len(outputs), len(case.joints), len(CAUSES))
+    estimate, real = np.zeros(shape), {}
+    for name, clearance in model_of(case).clearances.items():
+        k, keys = assembly.model.joints.index(name), case.joints[name].clearance
+        known = clearance.film is None and isinstance(clearance.shape, (Cylinder, Sphere, Ball))
+        estimate[:, :, k] = 0.0 if known else np.nan
+        if known and keys is not None:
+            force, moment = couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k]
+            spin = couplings["relative_rate"][:, k, 2]
+            reaction = JointReaction(clearance, keys.friction_coefficient, force, moment, spin)
+            real[k] = reaction.displacements()
+    if real:
+        estimate[:, :, list(real)] = superposed(IdealMechanism(assembly), outputs, times, real)
+    estimate[:, ~np.array([output.has_displacement for output in outputs])] = np.nan
+    return {
+        "output_ratio": velocity_ratios(assembly, outputs, times),
+        "error_estimate": estimate,
+    }
+
+
+def instant_errors(
+    case: MechanismCase, times: FloatArray, error: FloatArray, couplings: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return errors at angles and positions of joints, and times, as :func:`.errors_at`; none without.
+
+    Parameters
+    ----------
+    case
+        The mechanism.
+    times
+        Rising [s], shape (n_t,).
+    error
+        Of its outputs, shape (n_t, n_outputs).
+    couplings
+        What is observed of joints, see :class:`~.variables.Observed`.
+    """
+    instants = instants_of(case.outputs)
+    if not instants:
+        return {}
+
+    def drive(instant: Instant) -> FloatArray:
+        joint = case.joint_of(case.outputs[instant.output].at)
+        assert joint is not None
+        return coordinate(case, couplings, joint, f"{instant.kind}s")
+
+    period = math.inf if case.period is None else case.period
+    return errors_at(instants, times, dict(zip(case.outputs, error.T, strict=True)), drive, period)
+
+
+def output_coordinates(case: MechanismCase, outputs: Sequence[Output]) -> dict[str, list[str]]:
+    """Return the names of outputs with their units, of a kinematic analysis those of its drives."""
+    if not outputs:
+        return {}
+    drives = [name for name, keys in case.drives.items() if GIVEN[keys.gives][1] < 2]
+    return {
+        "output": [output.name for output in outputs],
+        "output_unit": [output.unit for output in outputs],
+        **instant_coordinates(case.outputs),
+        **({"drive": drives, "cause": list(CAUSES)} if case.run.analysis == "kinematic" else {}),
+    }

@@ -1,0 +1,243 @@
+"""Sections on the joints: forces, the motion in the clearance, pressure and wear, joint by joint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.mechanism.sections.shafts import Shafts
+from tribodyn.mechanism.assembly.skeleton import case_of
+from tribodyn.views.bushing import Unrolled
+from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
+from tribodyn.views.encode import packed, stepped
+from tribodyn.views.playback import playback_times
+from tribodyn.views.section import Payload, Section, choice
+from tribodyn.views.series import peak
+from tribodyn.views.unrolled import best_cut, shares
+from tribodyn.views.wear import fitting_unit
+
+MOST: Final = 8
+"""Joints that are shown one by one; of more, those that are loaded most."""
+_AXES: Final = "xyz"
+LAID_FLAT: Final = (
+    "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
+    "or arc of a ball."
+)
+WORN: Final = (
+    "Depth worn off: after the cycles of the wear campaign, or else a linear estimate for this run, in which "
+    "the worn shape does not change the pressure."
+)
+
+
+@dataclass(frozen=True)
+class Detailed:
+    """The joints that a large mechanism is shown by.
+
+    Attributes
+    ----------
+    joints
+        Their numbers, in the order of the case.
+    of
+        How many there are of their kind.
+    by
+        What is largest in these.
+    """
+
+    joints: list[int]
+    of: int
+    by: str
+
+    @property
+    def which(self) -> str:
+        """Say that others are left out, as an addition to a title; nothing where none are."""
+        left_out = len(self.joints) < self.of
+        return f", {len(self.joints)} joints of {self.of} with the largest {self.by}" if left_out else ""
+
+
+def real_joints(dataset: xr.Dataset) -> Detailed:
+    """Return the joints with clearance, of many those that are pressed hardest."""
+    real = np.flatnonzero(np.isfinite(dataset["clearance"].values))
+    pressure = (
+        dataset["pressure_max"].values if "pressure_max" in dataset else np.zeros((1, dataset.sizes["joint"]))
+    )
+    return _largest(real, np.nan_to_num(pressure).max(axis=0, initial=0.0), "pressures")
+
+
+def loaded_joints(dataset: xr.Dataset) -> Detailed:
+    """Return the joints, of many those that carry most."""
+    force = np.linalg.norm(np.nan_to_num(dataset["reaction_force"].values), axis=-1).max(axis=0, initial=0.0)
+    return _largest(np.arange(force.size), force, "forces")
+
+
+def _largest(joints: IntArray, values: FloatArray, by: str) -> Detailed:
+    order = np.argsort(-values[joints], kind="stable")[:MOST]
+    return Detailed(np.sort(joints[order]).tolist(), joints.size, by)
+
+
+def _names(dataset: xr.Dataset) -> list[str]:
+    return [str(name) for name in dataset["joint"].values]
+
+
+def reactions(dataset: xr.Dataset) -> Payload | None:
+    """Return force and moment of joints over time, in their own axes."""
+    force, moment = dataset["reaction_force"].values, dataset["reaction_moment"].values
+    names, chosen = _names(dataset), loaded_joints(dataset)
+    parts = {
+        names[j]: over_time(
+            dataset, [_vector("force [N]", force[:, j]), _vector("moment [N m]", moment[:, j])]
+        )
+        for j in chosen.joints
+    }
+    return choice("lines", f"joint{chosen.which}", parts)
+
+
+def _vector(label: str, values: FloatArray) -> Panel:
+    curves = [
+        ChartCurve(axis, values[:, i], colour, dash)
+        for i, (axis, (colour, dash)) in enumerate(zip(_AXES, LOOKS, strict=False))
+    ]
+    return Panel(label, curves)
+
+
+def orbits(dataset: xr.Dataset) -> Payload | None:
+    """Return the places of the shafts of all joints with clearance, across their axes [µm]."""
+    times = playback_times(dataset)
+    if times.size < 2:
+        return None
+    names, chosen, shafts = _names(dataset), real_joints(dataset), Shafts(dataset, case_of(dataset))
+    parts = {names[j]: _orbit(shafts, j, times) for j in chosen.joints}
+    return choice("orbit", f"joint{chosen.which}", parts)
+
+
+def _orbit(shafts: Shafts, joint: int, times: FloatArray) -> dict[str, Any]:
+    x, y = 1e6 * shafts.path(joint)[:, :2].T
+    clearance = 1e6 * float(shafts.dataset["clearance"].values[joint])
+    at_x, at_y = 1e6 * shafts.at(joint, times)[:, :2].T
+    return {
+        "clearance": clearance,
+        "reach": 1.25 * max(clearance, peak(x), peak(y)),
+        "joined": False,
+        "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
+        "places": ["shaft"],
+        "paths": [{"x": stepped(x, 0.001 * clearance), "y": stepped(y, 0.001 * clearance)}],
+        "at": [{"x": packed(at_x), "y": packed(at_y)}],
+    }
+
+
+def pressures(dataset: xr.Dataset) -> Payload | None:
+    """Return the frames of pressure of every surface [MPa]."""
+    if dataset["pressure_cycle"].shape[0] < 2:
+        return None
+    return _maps(dataset, "pressure_cycle", lambda _: ("MPa", 1e6), "contact pressure", 1.6)
+
+
+def film_pressures(dataset: xr.Dataset) -> Payload | None:
+    """Return the frames of pressure of every oil film [MPa]."""
+    if dataset["film_pressure_cycle"].shape[0] < 2:
+        return None
+    return _maps(dataset, "film_pressure_cycle", lambda _: ("MPa", 1e6), "film pressure", 1.6)
+
+
+def wear(dataset: xr.Dataset) -> Payload | None:
+    """Return the wear depth of every surface as one picture each, in a unit that fits."""
+    return _maps(dataset, "wear_depth", fitting_unit, "wear depth", 1.0)
+
+
+def _maps(
+    dataset: xr.Dataset, name: str, unit_of: Callable[[float], tuple[str, float]], label: str, room: float
+) -> Payload | None:
+    """Return maps of all surfaces that are not empty; colours go ``room`` times as far as the median peak."""
+    parts: dict[str, Any] = {}
+    for surface, place, theta, fields in surfaces(dataset, name):
+        largest = float(fields.max(initial=0.0))
+        if not largest > 0.0:
+            continue
+        unit, size = unit_of(largest)
+        cut = best_cut(theta, shares(fields))
+        middle = 0.5e3 * float(place[0] + place[-1])
+        laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
+        parts[surface] = laid.payload(
+            fields / size, label, unit, lambda peaks: room * float(np.median(peaks[peaks > 0.0]))
+        )
+    return choice("field", f"surface{real_joints(dataset).which}", parts)
+
+
+def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
+    """Yield name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows), of the surfaces.
+
+    Of many joints, those of the joints that are pressed hardest.
+    """
+    names = _names(dataset)
+    chosen = [names[j] for j in real_joints(dataset).joints]
+    if "film" in dataset[name].dims:
+        theta = dataset["film_angle"].values
+        for k, film in enumerate(dataset["film"].values):
+            if str(film) in chosen:
+                field = np.nan_to_num(dataset[name].isel(film=k).values)
+                yield f"{film}:film", dataset["film_place"].values[k], theta, field
+        return
+    for k, surface in enumerate(dataset["surface"].values):
+        if str(surface).rpartition(":")[0] not in chosen:
+            continue
+        field = np.nan_to_num(dataset[name].isel(surface=k).values)
+        field = field if field.ndim == 3 else field[None]
+        place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
+        rows, columns = np.append(np.diff(place) > 0.0, True), np.append(np.diff(theta) > 0.0, True)
+        if np.count_nonzero(rows) > 1:
+            own = field[:, rows][:, :, columns]
+            yield str(surface), place[rows], theta[columns], own.transpose(0, 2, 1)
+
+
+REACTIONS: Final = Section(
+    name="reactions",
+    title="Force and moment of a joint",
+    caption="Force and moment on the shaft's body, along and about the axes of the joint: z is its axis.",
+    needs=("reaction_force", "reaction_moment", "joint"),
+    widget="choice",
+    data=reactions,
+)
+ORBITS: Final = Section(
+    name="orbits",
+    title="Shafts in their bores",
+    caption=(
+        "Seen along the axis of the joint, X and Y are its axes x and y. The circle is the clearance, the "
+        "mark is the centre of the shaft now, the line its path. Beyond the circle the mean planes of the "
+        "surfaces overlap."
+    ),
+    needs=("displacement", "clearance", "joint"),
+    widget="choice",
+    data=orbits,
+    still="orbits",
+)
+PRESSURE: Final = Section(
+    name="pressure",
+    title="Contact pressure",
+    caption=LAID_FLAT,
+    needs=("pressure_cycle", "frame_time", "surface"),
+    widget="choice",
+    data=pressures,
+    still="pressure_maps",
+)
+FILM_PRESSURE: Final = Section(
+    name="film_pressure",
+    title="Film pressure",
+    caption="Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
+    needs=("film_pressure_cycle", "frame_time", "film"),
+    widget="choice",
+    data=film_pressures,
+    still="film_maps",
+)
+WEAR: Final = Section(
+    name="wear",
+    title="Wear depth",
+    caption=WORN,
+    needs=("wear_depth", "surface"),
+    widget="choice",
+    data=wear,
+    still="wear_maps",
+)

@@ -1,0 +1,138 @@
+"""Parts of a scene beside bodies: motion in clearances, to be magnified; forces and moments as arrows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.frames import frame
+from tribodyn.mechanism.model.parts import JointKeys
+from tribodyn.mechanism.assembly.races import axes_of
+from tribodyn.mechanism.sections.joints import loaded_joints
+from tribodyn.mechanism.sections.load_arrows import load_arrows
+from tribodyn.mechanism.sections.shafts import Shafts
+from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
+from tribodyn.views.encode import packed
+from tribodyn.views.magnified import magnification
+from tribodyn.views.playback import playback_times
+
+_SUSTAINED: Final = 99.0
+"""Percentile of the force over time for which an arrow has its full length."""
+
+
+def clearances(
+    dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, orientation: FloatArray
+) -> dict[str, dict[str, Any]]:
+    """Return the pins and balls of joints with clearance at the frames, by the names of the joints.
+
+    Parameters
+    ----------
+    dataset, case, drawn
+        The result, its case, and what is drawn of it.
+    orientation
+        Quaternions of the bodies at the frames, shape (n_frames, n_bodies, 4).
+
+    Returns
+    -------
+    dict
+        Radii, length and radial clearance [mm]; at the frames the offset of the pin from the axis of its bore
+        [mm] and the difference of their directions, global axes. The length of a ball is zero.
+    """
+    shafts, times, known = Shafts(dataset, case), playback_times(dataset), dataset["clearance"].values
+    found = {}
+    for number, (name, joint) in enumerate(case.joints.items()):
+        keys = joint.real
+        if keys is None or keys.radius is None or not np.isfinite(known[number]):
+            continue
+        to_global = _axes(case, joint, drawn, orientation)
+        offset, tilt = shafts.at(number, times), _tilt(dataset, number, times)
+        if joint.kind.COORDINATES:
+            offset = offset * [1.0, 1.0, 0.0]
+        if not (np.isfinite(offset).all() and np.isfinite(tilt).all()):
+            continue
+        found[name] = {
+            "radius": MM * keys.radius,
+            "length": MM * (keys.length or 0.0),
+            "radial": MM * float(known[number]),
+            "offset": packed(MM * np.einsum("nij,nj->ni", to_global, offset)),
+            "tilt": packed(np.einsum("nij,nj->ni", to_global, tilt)),
+        }
+    return found
+
+
+def magnified(found: Iterable[dict[str, Any]]) -> dict[str, Any] | None:
+    """Return the range of the magnification, None where there is no clearance to magnify."""
+    ratios = [one["radius"] / one["radial"] for one in found if one["radial"] > 0.0]
+    return magnification(min(ratios)) if ratios else None
+
+
+def _axes(case: MechanismCase, joint: JointKeys, drawn: Skeleton, orientation: FloatArray) -> FloatArray:
+    """Return the axes of a joint at the frames as columns, which its bore carries; shape (n_frames, 3, 3)."""
+    columns = frame(*axes_of(case, joint))
+    carrier = joint.between[0 if joint.sign > 0.0 else 1]
+    if carrier not in drawn.bodies:
+        return np.broadcast_to(columns, (orientation.shape[0], 3, 3))
+    turned = rotated(orientation[:, None, drawn.bodies.index(carrier)], columns.T)
+    return np.asarray(np.swapaxes(turned, 1, 2))
+
+
+def _tilt(dataset: xr.Dataset, joint: int, times: FloatArray) -> FloatArray:
+    """Return the tilt of a shaft against its bore, axes of the joint, shape (n, 3)."""
+    time = dataset["time"].values
+    x, y = (np.interp(times, time, dataset[name].values[:, joint]) for name in ("tilt_x", "tilt_y"))
+    return np.stack([y, -x, 0.0 * x], axis=-1)
+
+
+def forces(
+    dataset: xr.Dataset, case: MechanismCase, drawn: Skeleton, position: FloatArray, orientation: FloatArray
+) -> dict[str, Any]:
+    """Return arrows: forces and moments of the joints that carry most, on their second bodies, and of loads.
+
+    In global axes. Those of joints are from the axes of the joints, which results of large models hold, too.
+    Each kind has the size that an arrow of full length represents, which impacts exceed. Parameters are those
+    of :func:`clearances` and the positions of the bodies at the frames, shape (n_frames, n_bodies, 3).
+    """
+    times, time = playback_times(dataset), dataset["time"].values
+    joints = list(case.joints.items())
+    loads = load_arrows(dataset, case, drawn, position, orientation)
+    points = {name: load.point for name, load in loads.items()}
+    found: dict[str, Any] = {}
+    for kind, unit in (("force", "N"), ("moment", "N m")):
+        arrows = {}
+        for j in loaded_joints(dataset).joints:
+            columns = np.nan_to_num(dataset[f"reaction_{kind}"].values[:, j]).T
+            own = np.stack([np.interp(times, time, column) for column in columns], axis=-1)
+            name, joint = joints[j]
+            arrows[name] = np.einsum("nij,nj->ni", _axes(case, joint, drawn, orientation), own)
+        found |= _arrows(kind, f"Joint {kind}s", unit, arrows)
+        of_loads = {name: getattr(load, kind) for name, load in loads.items()}
+        found |= _arrows(f"load_{kind}", f"Load {kind}s", unit, of_loads, points)
+    return found
+
+
+def _arrows(
+    kind: str,
+    label: str,
+    unit: str,
+    vectors: Mapping[str, FloatArray],
+    points: Mapping[str, FloatArray] = MappingProxyType({}),
+) -> dict[str, Any]:
+    """Return arrows of one kind as the script reads them; nothing where all are zero."""
+    sizes = {
+        name: float(np.percentile(np.linalg.norm(one, axis=-1), _SUSTAINED)) for name, one in vectors.items()
+    }
+    scale = max(sizes.values(), default=0.0)
+    if not 0.0 < scale < np.inf:
+        return {}
+    shown = [name for name, size in sizes.items() if size > 0.0]
+    about = {"label": label, "unit": unit, "scale": scale}
+    at = {name: packed(vectors[name]) for name in shown}
+    return {
+        kind: about | {"at": at, "points": {name: packed(points[name]) for name in shown if name in points}}
+    }

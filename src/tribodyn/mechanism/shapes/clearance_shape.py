@@ -1,0 +1,72 @@
+"""Common parts of the shapes of a clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar, TypeAlias
+
+from tribodyn.cases.case import NamedGroup
+from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.shapes import Shape
+from tribodyn.mechanism.joints.joint_type import JointType
+
+Local: TypeAlias = Callable[[FloatArray], FloatArray]
+
+
+class ClearanceShape:
+    """Base of the shapes of a clearance; a member says all that is to be known of its shape.
+
+    Attributes
+    ----------
+    NAME
+        Its name in case files.
+    TYPES
+        Types of joints that may have it, beside those whose usual shape it is.
+    NEEDED
+        Keys that it needs, with what they are.
+    EXAMPLE
+        Values of these keys.
+    KEYS
+        Keys of its own, beside radius, radial clearance, length and those of all shapes; others refuse them.
+    BORE
+        Whether it is a shaft in a bore, which takes a form, a pin of another length, a sleeve and a film.
+    IDEAL
+        Type of the ideal joint that holds the same, which the joint becomes as the clearance vanishes; empty
+        for that of the joint itself.
+    """
+
+    NAME: ClassVar[str]
+    TYPES: ClassVar[tuple[str, ...]] = ()
+    NEEDED: ClassVar[dict[str, str]] = {"radius": "its radius", "radial": "its clearance"}
+    EXAMPLE: ClassVar[dict[str, object]] = {"radius": "10 mm", "radial": "20 um"}
+    KEYS: ClassVar[type[NamedGroup]] = NamedGroup
+    BORE: ClassVar[bool] = False
+    IDEAL: ClassVar[str] = ""
+
+    def check(self, kind: JointType, keys: Any) -> None:
+        """Refuse keys of the clearance that do not fit a type of joint; what it needs is there.
+
+        Raises
+        ------
+        InputError
+            With the reason; its key is the one of the table of the joint.
+        """
+
+    def ideal(self, kind: str, keys: Any) -> str:
+        """Return the type of the ideal joint that holds the same as a joint of some type."""
+        return self.IDEAL or kind
+
+    def of(self, keys: Any, local: Local) -> Shape:
+        """Return the shape as drawn; ``local`` takes points of the drawing into the axes of the joint [m]."""
+        raise NotImplementedError
+
+    def room(self, shape: Any) -> tuple[float, float, float]:
+        """Return the play of the shaft across and along the axis, and the length over which it tilts [m].
+
+        A length of 0 is one over which it may tilt freely.
+        """
+        return shape.clearance, shape.clearance, 0.0
+
+    def nodes(self, keys: Any, around: int, along: float) -> float:
+        """Return the number of nodes on a grid, for the costs of a run."""
+        return around * along

@@ -1,0 +1,1 @@
+"""Presets: models with a name of their own, written as user-defined mechanisms."""

@@ -1,0 +1,128 @@
+"""A mechanism as a file, as calls in Python, and as what equations begin with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.unit.mechanism.slider_crank import FILE, built, parsed
+
+from tribodyn.cases.load import parse
+from tribodyn.core.errors import InputError
+from tribodyn.joints.resolution import resolving
+from tribodyn.joints.shapes import Cylinder
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.assembly.records import mechanism_data
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.studies.plan import make_plan
+
+CASE = parsed()
+
+
+def test_calls_in_python_make_the_case_that_a_file_makes() -> None:
+    assert built() == CASE
+    assert parsed(built().to_toml()) == CASE
+
+
+@pytest.mark.parametrize("comments", [False, True])
+def test_what_is_written_reads_back(comments: bool) -> None:
+    assert parsed(CASE.to_toml(comments=comments)) == CASE
+    assert 'speed = "5000 rpm"' in CASE.to_toml()
+
+
+def test_a_run_is_as_long_as_its_cycles() -> None:
+    assert CASE.period == pytest.approx(0.012)
+    assert CASE.duration == pytest.approx(0.024)
+    assert CASE.output_interval == pytest.approx(0.012 / 500)
+    assert CASE.replace({"run.duration": "1 s"}).duration == 1.0
+
+
+def test_every_key_of_every_joint_can_be_changed_and_varied() -> None:
+    changed = CASE.replace({"joints.wrist.clearance.radial": "40 um", "drives.motor.speed": "3000 rpm"})
+    assert changed.at("joints.wrist.clearance.radial") == 40e-6
+    assert changed.period == pytest.approx(0.02)
+    real = CASE.replace(
+        {
+            "joints.pin.clearance.radius": "9 mm",
+            "joints.pin.clearance.radial": "10 um",
+            "joints.pin.clearance.length": "9 mm",
+        }
+    )
+    assert real.joints["pin"].clearance is not None
+    plan = make_plan(
+        CASE, {"joints.wrist.clearance.radial": "20:60:20 um", "joints.pin.point.x": "49, 50 mm"}
+    )
+    assert len(plan.points) == 6
+
+
+def test_keys_fill_records_in_si_with_numbers_for_names() -> None:
+    model = model_of(CASE)
+    assert model.bodies == ("crank", "rod", "slider")
+    data = mechanism_data(model)
+    couplings, n = data.parts.couplings, len(model.bodies)
+    joints = [(int(c.socket), int(c.shaft)) for c in couplings[: len(model.joints)]]
+    assert joints == [(n, 0), (0, 1), (1, 2), (n, 2)]
+    wrist = model.clearances["wrist"]
+    assert wrist.shape == Cylinder(9.5e-3, 20e-6, 20e-3, axial=50e-6, flange=14e-3)
+    assert wrist.grid == resolving(20e-6, wrist.roughness)
+    spring, load = couplings[len(model.joints) :]
+    assert spring.length == pytest.approx(0.1)
+    (term,) = data.terms[load.first_term : load.last_term]
+    signal = data.signals.signals[term.signals[0]]
+    # Along x alone, and against it, as the direction says.
+    assert (int(term.target), list(signal.sine)) == (0, [-50.0, 10.0, 0.0])
+    assert list(data.signals.pieces.c[signal.first][:2]) == [-100.0, 0.0]
+    # The force acts at the point as drawn, the mass centre of the slider.
+    assert list(load.shaft_point) == [0.0, 0.0, 0.0]
+
+
+def test_principal_axes_turn_the_inertia() -> None:
+    turned = CASE.replace({"bodies.rod.first_axis": "[0, 2, 0]", "bodies.rod.second_axis": "[-1, 0, 0]"})
+    # Rounding of products of unit vectors.
+    np.testing.assert_allclose(
+        mechanism_data(model_of(turned)).parts.bodies[1].inertia, np.diag([2.5e-4, 2e-5, 2.5e-4]), atol=1e-19
+    )
+
+
+def test_a_pair_has_surfaces_and_law_of_its_own() -> None:
+    assert CASE.pairs["steel-polyimide"].contact.law == "gw"
+    assert CASE.contact.law == "rsdc"
+    plain = CASE.replace(
+        {"joints.wrist.clearance.pair": "steel-polyimide", "pairs.steel-polyimide.contact.law": "ke"}
+    )
+    assert plain.pairs["steel-polyimide"].contact.law == "ke"
+
+
+def test_a_pair_may_take_its_numbers_from_a_scan(tmp_path: Path) -> None:
+    heights = np.random.default_rng(3).normal(scale=0.5, size=(64, 64))
+    rows = "\n".join(",".join(f"{h:.6f}" for h in row) for row in heights)
+    (tmp_path / "scan.csv").write_text(f"# unit: um\n# spacing: 1 um\n{rows}\n")
+    text = FILE.replace(
+        "[drives.motor]", '[pairs.steel-polyimide.asperities]\nsurface = "scan.csv"\n[drives.motor]'
+    )
+    found = parse(text, "mine.toml", {"mechanism": MechanismCase}, tmp_path)
+    assert found.at("pairs.steel-polyimide.asperities.surface") is None
+    # The scan's roughness, to the scatter of 4096 heights.
+    assert found.at("pairs.steel-polyimide.surfaces.bushing.roughness") == pytest.approx(0.5e-6, rel=0.05)
+    assert found.at("surfaces.bushing.roughness") == pytest.approx(1.586e-6)
+    with pytest.raises(
+        InputError, match=r"pairs\.steel-polyimide\.asperities\.level: this belongs to a scan"
+    ):
+        parsed(text.replace('surface = "scan.csv"', 'level = "plane"'))
+
+
+def test_an_undamped_law_of_a_pair_has_no_damping_factor() -> None:
+    text = FILE.replace("restitution = 0.8\n", "")
+    assert parsed(text).pairs["steel-polyimide"].contact.damping_factor == "none"
+
+
+def test_a_builder_names_what_is_written_twice_or_too_early() -> None:
+    twice = Mechanism().body("rod", mass="1 kg")
+    with pytest.raises(InputError, match=r"bodies\.rod: this name is given twice"):
+        twice.body("rod", mass="2 kg")
+    with pytest.raises(InputError, match="write the joint first"):
+        twice.clearance("pin", radius="1 mm", radial="1 um")
+    with pytest.raises(InputError, match=r"Mechanism: bodies\.rod\.centre: this key is missing"):
+        twice.case()

@@ -1,0 +1,143 @@
+"""Large matrices of a mechanism: factors find what singular values would, or are not used."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tribodyn.mechanism.assembly.decompositions import (
+    DEPENDENT,
+    LARGE,
+    factors,
+    least_squares,
+    null_space,
+    row_space,
+    with_unit_rows,
+)
+from tribodyn.mechanism.assembly.multifrontal import MultifrontalQR
+
+N_BODIES = 20
+
+
+def graph(held: int, *, redundant: int = 0, ring: bool = False, seed: int = 1) -> np.ndarray:
+    """Return rows of a chain or ring of bodies, tied to their neighbours by ``held`` rows each.
+
+    As many as ``redundant`` of each body are combinations of its others.
+    """
+    rng, parts = np.random.default_rng(seed), []
+    for body in range(N_BODIES):
+        rows = np.zeros((held, N_BODIES, 6))
+        rows[:, body] = np.eye(6)[:held] + 0.2 * rng.normal(size=(held, 6))
+        if body > 0 or ring:
+            rows[:, body - 1] = 0.2 * rng.normal(size=(held, 6))
+        own = rows.reshape(held, -1)
+        parts.append(np.vstack([own, rng.normal(size=(redundant, held)) @ own]))
+    return with_unit_rows(np.vstack(parts))
+
+
+def dense_one(shape: tuple[int, int], least: float) -> np.ndarray:
+    """Return a matrix whose singular values fall from 1 to 0.01, and the last one is ``least``."""
+    rng, rank = np.random.default_rng(1), min(shape)
+    left, right = (np.linalg.qr(rng.normal(size=(n, rank)))[0] for n in shape)
+    values = np.append(np.geomspace(1.0, 1e-2, rank - 1), least)
+    return left * values @ right.T
+
+
+@pytest.mark.parametrize("held", [4, 5, 6])
+@pytest.mark.parametrize("redundant", [0, 2])
+@pytest.mark.parametrize("ring", [False, True])
+def test_factors_find_what_singular_values_do(held: int, redundant: int, *, ring: bool) -> None:
+    given = graph(held, redundant=redundant, ring=ring)
+    values = np.linalg.svd(given, compute_uv=False)
+    rank = int(np.sum(values > DEPENDENT * values[0]))
+    assert rank == held * N_BODIES
+    found = factors(given)
+    if found is None:
+        # Motions that run around a ring without ground are found from one body of it, inaccurately.
+        assert ring
+        assert held < 6
+        return
+    assert found.rank == rank
+    least, largest = found.bounds
+    assert 0.3 * values[rank - 1] < least <= values[rank - 1] * (1.0 + 1e-9)
+    assert values[0] <= largest
+    assert values[rank - 1] * (1.0 - 1e-9) <= found.softest() < 3.0 * values[rank - 1]
+    right = np.random.default_rng(2).normal(size=len(given))
+    np.testing.assert_allclose(found.solve(right), np.linalg.pinv(given, rcond=1e-9) @ right, atol=1e-9)
+    for columns, zero in ((found.null, given @ found.null), (found.dependent.T, found.dependent @ given)):
+        np.testing.assert_allclose(columns.T @ columns, np.eye(columns.shape[1]), atol=1e-11)
+        np.testing.assert_allclose(zero, 0.0, atol=1e-11)
+    assert found.null.shape[1] == given.shape[1] - rank
+    assert len(found.dependent) == len(given) - rank
+
+
+@pytest.mark.parametrize("least", [1e-3, 0.0, 1e-16, 1e-9, 0.5 * DEPENDENT])
+@pytest.mark.parametrize("shape", [(LARGE, LARGE + 40), (LARGE + 40, LARGE)])
+def test_a_doubtful_rank_is_left_to_singular_values(shape: tuple[int, int], least: float) -> None:
+    given = dense_one(shape, least)
+    found = factors(given)
+    values = np.linalg.svd(given, compute_uv=False)
+    if least == 1e-3:
+        assert found is not None
+    if found is not None:
+        assert found.rank == np.sum(values > DEPENDENT * values[0])
+
+
+def test_a_small_matrix_keeps_its_singular_values() -> None:
+    assert factors(np.eye(LARGE - 1)) is None
+
+
+def test_rows_of_a_column_of_zeros_and_rows_of_zeros() -> None:
+    given = graph(6)
+    given[:, 30:36], given[7] = 0.0, 0.0
+    found = MultifrontalQR(given)
+    assert found.rank == np.linalg.matrix_rank(given)
+    np.testing.assert_allclose(given @ found.null, 0.0, atol=1e-11)
+
+
+def test_bodies_at_rest_have_no_part_in_the_motions_of_others() -> None:
+    given = np.vstack([graph(6)[: 6 * (N_BODIES - 2)], graph(5)[-10:]])
+    found = factors(with_unit_rows(given))
+    assert found is not None
+    assert found.null.shape[1] == 2
+    assert not found.null[: 6 * (N_BODIES - 2)].any()
+
+
+def test_only_the_motion_of_a_hub_moves_the_bodies_around_it() -> None:
+    rng = np.random.default_rng(5)
+    hub = np.zeros((5, N_BODIES, 6))
+    hub[:, 0] = rng.normal(size=(5, 6))
+    spokes = np.zeros((N_BODIES - 1, 2, N_BODIES, 6))
+    for body in range(1, N_BODIES):
+        spokes[body - 1][:, [0, body]] = rng.normal(size=(2, 2, 6))
+    found = factors(with_unit_rows(np.vstack([hub.reshape(5, -1), spokes.reshape(-1, 6 * N_BODIES)])))
+    assert found is not None
+    moved = np.any(found.null.reshape(N_BODIES, 6, -1) != 0.0, axis=1).sum(axis=0)
+    assert sorted(moved) == [1] * 4 * (N_BODIES - 1) + [N_BODIES]
+
+
+def test_least_squares_and_null_space_are_those_of_singular_values() -> None:
+    given = 1e4 * graph(5, redundant=1)
+    rank = 5 * N_BODIES
+    right = np.random.default_rng(3).normal(size=len(given))
+    exact = np.linalg.pinv(given, rcond=1e-9) @ right
+    np.testing.assert_allclose(least_squares(given, right, rank), exact, atol=1e-9 * np.max(np.abs(exact)))
+    free = null_space(given, rank)
+    _, _, rows = np.linalg.svd(given)
+    np.testing.assert_allclose(free @ free.T, rows[rank:].T @ rows[rank:], atol=1e-11)
+
+
+@pytest.mark.parametrize("held", [5, 6])
+def test_motions_that_some_rows_hold_and_others_leave(held: int) -> None:
+    given = graph(held)
+    others = given[::2]
+    space = row_space(given, held * N_BODIES)
+    found = space.left_by(others, len(others))
+    assert found.shape[1] == len(given) - len(others)
+    np.testing.assert_allclose(found.T @ found, np.eye(found.shape[1]), atol=1e-11)
+    np.testing.assert_allclose(others @ found, 0.0, atol=1e-11)
+    np.testing.assert_allclose(space.free.T @ found, 0.0, atol=1e-11)
+    motion = np.random.default_rng(4).normal(size=given.shape[1])
+    np.testing.assert_allclose(
+        space.part_of(motion) + space.free @ (space.free.T @ motion), motion, atol=1e-11
+    )
