@@ -32,8 +32,8 @@ from benchmarks.peers import EVERY, PART, with_exudyn
 from benchmarks.vsv_case import RTOL, one
 from tribodyn.core import toml
 from tribodyn.integrate import integrate
-from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.mechanism.mechanism_variables import observed
+from tribodyn.mechanism.system import MechanismSystem
 
 FloatArray = NDArray[np.float64]
 Row = dict[str, Any]

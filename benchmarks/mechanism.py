@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 import tribodyn as td
 from tribodyn.integrate import integrate
-from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.mechanism.mechanism_variables import observed
+from tribodyn.mechanism.system import MechanismSystem
 
 FloatArray = NDArray[np.float64]
 

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 import tribodyn as td
 from tribodyn.integrate.binding import kernel_types, machine_code
+from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.stribeck import stribeck
 from tribodyn.presets.journal.system import JournalSystem, journal_of
-from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
 COARSE, FINE = 2e-6, 1e-7

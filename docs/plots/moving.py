@@ -22,8 +22,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 from mechanism import README, lines
 
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, VERMILION
-from tribodyn.mechanism.figures.animation import moving
 from tribodyn.mechanism.assembly.skeleton import Skeleton
+from tribodyn.mechanism.figures.animation import moving
 
 JOINT: Final = "wrist"
 CRANK: Final = "crank"

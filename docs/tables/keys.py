@@ -11,10 +11,10 @@ from typing import Any, Final
 from tables.markdown import BAR, Lines, Table, head, row
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import ANY_NAME, groups_of
-from tribodyn.mechanisms.catalogue import kinds, load_case
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import words_of
+from tribodyn.mechanisms.catalogue import kinds, load_case
 
 
 def assumed(kind: str) -> Lines:

@@ -27,7 +27,7 @@ Solution = Callable[[FloatArray], FloatArray]
 
 
 class Algebra(Protocol):
-    """What the compiled core asks of its caller, see :mod:`mebdf.kernels.core`."""
+    """Requests of the compiled core to its caller, see :mod:`mebdf.kernels.core`."""
 
     def linearise(self, t: float, y: FloatArray) -> bool:
         """Evaluate the Jacobian; where it is not finite keep the last one and return False."""
@@ -88,7 +88,7 @@ class _Kept:
         self._factors: Any = None
 
     def _factor(self, scaled: float) -> FloatArray:
-        """Return what multiplies the Jacobian of each equation, shape (n,)."""
+        """Return the factor of the Jacobian of each equation, shape (n,)."""
         return np.where(self._algebraic, 1.0, scaled)
 
     def linearise(self, t: float, y: FloatArray) -> bool:
@@ -145,7 +145,7 @@ class Full(_Kept):
 
 
 class _Places:
-    """Where entries of the Jacobian and of the mass matrix stand in the diagonals of :func:`by_bands`."""
+    """Places of the entries of the Jacobian and of the mass matrix in the diagonals of :func:`by_bands`."""
 
     def __init__(self, jacobian: Any, mass: Any) -> None:
         self._rows, self._starts = jacobian.indices, jacobian.indptr
@@ -191,7 +191,7 @@ class Sparse(_Kept):
         return solution
 
     def _by_superlu(self, matrix: Any) -> tuple[Solution | None, int]:
-        """Return what solves with a matrix, ``None`` if it is singular, and the sign of its determinant."""
+        """Return the solver of a matrix, ``None`` if it is singular, and the sign of its determinant."""
         try:
             if not self._order:
                 self._order = min(ORDERS, key=lambda order: _superlu(matrix, order).nnz)
@@ -213,7 +213,7 @@ class Sparse(_Kept):
 
 
 def by_bands(packed: FloatArray, lower: int, upper: int) -> tuple[Solution | None, int]:
-    """Return what solves with a banded matrix, ``None`` if it is singular, and the sign of its determinant.
+    """Return the solver of a banded matrix, ``None`` if it is singular, and the sign of its determinant.
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ def by_bands(packed: FloatArray, lower: int, upper: int) -> tuple[Solution | Non
 
 
 def _exchanges(pivots: NDArray[np.int32]) -> int:
-    """Return how many rows LAPACK has exchanged."""
+    """Return the number of rows that LAPACK has exchanged."""
     return int(np.count_nonzero(pivots != np.arange(pivots.size)))
 
 
@@ -258,7 +258,7 @@ def _sign(pivots: FloatArray, exchanges: int) -> int:
 
 
 def _below(matrix: Any) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return how far below the main diagonal, and in which column, the entries of a matrix stand."""
+    """Return the distances of a matrix's entries below the main diagonal, and their columns."""
     column = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
     return matrix.indices - column, column
 

@@ -1,4 +1,4 @@
-"""What a solver class of SciPy refuses or warns of, in the words SciPy's own use."""
+"""Refusals and warnings of a solver class of SciPy, in SciPy's own words."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def order(max_order: int, largest: int) -> int:
 
 
 def bands(lower: int | None, upper: int | None, n: int) -> tuple[int, int] | None:
-    """Return how many diagonals lie below and above the main one; ``None`` if neither number is given."""
+    """Return the numbers of diagonals below and above the main one; ``None`` if neither number is given."""
     if lower is None and upper is None:
         return None
     numbers = lower or 0, upper or 0
@@ -61,7 +61,7 @@ def inner_times(times: ArrayLike, t0: float, t_bound: float) -> list[float]:
 
 
 def resolved(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> None:
-    """Refuse what is too small for its relative tolerance to be a number of full precision."""
+    """Refuse a tolerance too small for its value to be a number of full precision."""
     lost = (atol == 0.0) & (y0 != 0.0) & (rtol * np.abs(y0) < SMALLEST_TOLERANCE)
     if np.any(lost):
         i = int(np.argmax(lost))

@@ -24,7 +24,7 @@ from mebdf.mass import LARGEST, MassMatrix, Split, split
 SHORT: Final = (0.0, 1.0e-5, 1.0e-3)
 """Time over which derivatives are differenced, in times that change the solution by itself."""
 CERTAIN: Final = 4.0
-"""How many times as large as its own error a difference must be to break an equation."""
+"""Least ratio of a difference that breaks an equation to its own error."""
 DEPENDS: Final = 1.0e-7
 """Least slope of a derivative that depends on algebraic variables, relative to the steepest."""
 ROUNDING: Final = 2.0e-7
@@ -139,7 +139,7 @@ class _Start:
         return difference
 
     def slopes(self, y: FloatArray) -> tuple[list[Any], NDArray[np.int64]]:
-        """Return how derivatives change with the state, and which one holds algebraic variables.
+        """Return the change of derivatives with the state, and the index of the one with algebraic variables.
 
         The slopes of each order have shape (m, n); rows that held algebraic variables before are zero. The
         number of derivatives of each equation, shape (m,), is −1 where none holds an algebraic variable.
@@ -159,7 +159,7 @@ class _Start:
         return orders, levels
 
     def _uncertain(self, y: FloatArray, slopes: Any, residual: FloatArray) -> FloatArray:
-        """Return how exactly each variable can be found from equations with these slopes, shape (n,)."""
+        """Return the accuracy of each variable from equations with these slopes, shape (n,)."""
         free = self._parts.free
         if self._highest > 0:
             return np.full(y.size, UNCHANGED * np.max(np.abs(free.T @ y)))
@@ -168,7 +168,7 @@ class _Start:
         return np.asarray(abs(free) @ (ROUNDED / np.maximum(determined, ROUNDED)))
 
     def _rounding(self, y: FloatArray, slopes: Any) -> FloatArray:
-        """Return what rounding may leave of the slopes of equations along algebraic variables, shape (m,)."""
+        """Return the rounding of the slopes of equations along algebraic variables, shape (m,)."""
         terms = abs(slopes) @ np.abs(y) + np.abs(self.derivative(y, 0))
         largest = float(np.max(np.abs(self._parts.free.T @ y)))
         return np.asarray(ROUNDING * terms / max(1.0, largest))

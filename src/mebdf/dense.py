@@ -46,7 +46,7 @@ class MebdfDenseOutput(DenseOutput):
 
 
 def end_of_jump(t: float, t_end: float) -> float:
-    """Return where a step that is a jump ends: far enough for SciPy to locate events, if there is room."""
+    """Return the end of a step that is a jump: far enough for SciPy to locate events, if there is room."""
     length = min(JUMP * (1.0 + abs(t)), MOST * abs(t_end - t))
     end = t + float(np.copysign(length, t_end - t))
     return end if end != t else float(np.nextafter(t, t_end))

@@ -21,7 +21,7 @@ SMALL: Final = _EPS**0.75
 LARGE: Final = _EPS**0.25
 """Such a change above which it is moved less the next time."""
 STRIDE: Final = 10.0
-"""How much further, and less."""
+"""Factors of a longer and of a shorter move."""
 AT_ONCE: Final = 2**22
 """Values of states evaluated at once: a dense row makes each column a group of its own."""
 LEAST: Final = _EPS**0.5
@@ -36,7 +36,7 @@ SHORT: Final = 1e-7
 FAR: Final = 1e-6
 """The same where that does not show, relative to the largest variable."""
 CLEAR: Final = 1e3
-"""How many times its rounding a change must be to show."""
+"""Least ratio of a visible change to its rounding."""
 
 Rates = Callable[[FloatArray], FloatArray]
 
@@ -163,7 +163,7 @@ def plain_jacobian(
 
 
 class _Changes(NamedTuple):
-    """What a move changed: entry by entry, and the largest of each column with the size of its rate."""
+    """Changes by moves: entry by entry, and the largest of each column with the size of its rate."""
 
     entries: FloatArray
     largest: FloatArray
@@ -220,7 +220,7 @@ class GroupedDifferences:
         return csc_array((entries, self._row, self._starts), shape=(y.size, y.size))
 
     def _moves(self, y: FloatArray, size: FloatArray) -> FloatArray:
-        """Return how far each variable is moved, in full although ``y`` rounds it."""
+        """Return the move of each variable, in full although ``y`` rounds it."""
         while True:
             moves: FloatArray = y + self._share * size - y
             none = moves == 0.0
@@ -236,7 +236,7 @@ class GroupedDifferences:
         moves: FloatArray,
         which: NDArray[np.int64],
     ) -> _Changes:
-        """Return what moves change in the entries ``which``, in order: all those of their columns."""
+        """Return the changes of the entries ``which`` by moves, in order: all those of their columns."""
         row, column = self._row[which], self._column[which]
         group = self._group[column]
         there = np.empty(row.size)

@@ -33,7 +33,7 @@ ITERATIONS: Final = 20
 VARIED: Final = 1e-6
 """Change of a slope in differences, relative to it or to what changes the solution by itself."""
 CLEAR: Final = 1e4
-"""How many times its rounding a difference of F must be."""
+"""Least ratio of a difference of F to its rounding."""
 LARGER: Final = 1e3
 MOST_TRIES: Final = 8
 """Factor by which a change is enlarged that does not show, and how often."""
@@ -74,7 +74,7 @@ class Residual:
 
     @property
     def evaluations(self) -> int:
-        """How many evaluations of F a Jacobian costs."""
+        """Number of evaluations of F for a Jacobian."""
         return 0 if self._jac is not None else 2 * self.slope.size
 
     def __call__(self, t: float, y: FloatArray) -> FloatArray:
@@ -242,7 +242,7 @@ class ImplicitFull(Full):
 
 
 def mass_at_start(mass: FloatArray, slope: FloatArray, read: MassMatrix) -> Mass:
-    """Return what the core keeps of ∂F/∂y', with room for any of its later values."""
+    """Return the matrix ∂F/∂y' for the core, with room for any of its later values."""
     n = slope.size
     entries, places = np.zeros(n * n), np.zeros(n + 1 + n * n, dtype=np.int64)
     fill_mass(entries, places, mass)

@@ -157,7 +157,7 @@ def _row_norms(matrix: Any) -> FloatArray:
 
 
 def _significant(jacobian: Any, size: FloatArray, share: float) -> Any:
-    """Return where a Jacobian has entries above rounding."""
+    """Return the entries of a Jacobian above rounding."""
     weighted = csc_array(csc_array(abs(jacobian)) @ diags_array(size))
     least = share * _row_norms(weighted)
     weighted.data = (weighted.data > least[weighted.indices]).astype(np.float64)

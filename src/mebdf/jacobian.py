@@ -49,7 +49,7 @@ class Linear(NamedTuple):
 
 
 class Matrices(NamedTuple):
-    """What accompanies the Jacobian: arguments of the classes that solve.
+    """Companions of the Jacobian: arguments of the classes that solve.
 
     Attributes
     ----------
@@ -124,7 +124,7 @@ def make_jacobian(
 
 
 def _matrices(mass: MassMatrix | None, n: int, typical: FloatArray) -> Matrices:
-    """Return what solutions outside of the core need beside the Jacobian."""
+    """Return the arguments of solutions outside of the core beside the Jacobian."""
     if mass is None:
         return Matrices(csc_array(eye_array(n)), np.zeros(n, dtype=bool), typical)
     return Matrices(csc_array(mass.matrix), mass.algebraic_equations, typical)
@@ -222,7 +222,7 @@ def _columns(matrix: Any) -> Any:
 
 
 def _pattern(sparsity: Any, bands: Bands | None, n: int) -> Any:
-    """Return where the Jacobian may differ from zero, in compressed columns; ``None`` for everywhere."""
+    """Return the places of a Jacobian that may differ from zero, in compressed columns; ``None``: all."""
     if bands is not None:
         offsets = range(-min(bands[0], n - 1), min(bands[1], n - 1) + 1)
         ones: Any = [np.ones(n - abs(k)) for k in offsets]

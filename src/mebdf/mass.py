@@ -60,7 +60,7 @@ class MassMatrix:
 
 @dataclass(frozen=True)
 class Split:
-    """What a singular mass matrix leaves algebraic.
+    """Algebraic part of a system with a singular mass matrix.
 
     Attributes
     ----------
@@ -120,14 +120,14 @@ def _by_zeros(factors: Any, equations: NDArray[np.bool_], variables: NDArray[np.
 
 
 def algebraic_variables(matrix: Any) -> NDArray[np.bool_]:
-    """Return which columns of a sparse matrix are empty."""
+    """Return the empty columns of a sparse matrix."""
     used = np.zeros(matrix.shape[1], dtype=bool)
     used[matrix.indices] = True
     return ~used
 
 
 def read_mass(mass: Any, index: ArrayLike | None, test_algebraic: bool | None, n: int) -> MassMatrix | None:
-    """Check what a user gave; ``None`` without a mass matrix.
+    """Check a user's mass matrix; ``None`` without one.
 
     Parameters
     ----------

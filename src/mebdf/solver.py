@@ -304,7 +304,7 @@ class MEBDF(OdeSolver):
         return request
 
     def _answer(self, request: int, t: float, y: FloatArray) -> None:
-        """Do what the core asks of who differentiates and solves for it."""
+        """Answer a request of the core for a derivative or a solution."""
         state, algebra = self._state, self._algebra
         if algebra is None:
             state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
@@ -333,7 +333,7 @@ class MEBDF(OdeSolver):
 
 
 def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
-    """Do what the core asks of who solves for it."""
+    """Answer a request of the core for a solution."""
     scaled, rows = state.number("scaled"), state.rows
     if request == NEED_JACOBIAN:
         state.numbers["finite"] = algebra.linearise(t, y)

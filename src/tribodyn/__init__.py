@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
     from tribodyn.cases.materials import MATERIALS as materials
-    from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanism.builder.mechanism_builder import Mechanism
-    from tribodyn.presets.journal.curves import stribeck
+    from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanisms.results import read
+    from tribodyn.presets.journal.curves import stribeck
     from tribodyn.simulation import check, simulate
 
 __all__ = [

@@ -20,8 +20,8 @@ from tests.unit.mechanism.drawings import (
 )
 
 from tribodyn.cases.signals import AngleSignal, ForceMap, TorqueSignal
-from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.model.parts import SpringKeys
 
 RTOL = 1e-8

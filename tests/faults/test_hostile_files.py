@@ -21,8 +21,8 @@ from tribodyn.cli.main import main
 from tribodyn.core import toml
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
-from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanisms.catalogue import load_case
 
 FEW, PARTS, EACH = 15, 10, 500
 Maker = Callable[[Path, random.Random], None]

@@ -19,8 +19,8 @@ from tests.faults.test_random_physics import chunks
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.assembly import decompositions
 from tribodyn.mechanism.assembly.assembly import assemble
-from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.simulation import simulate
 
 PATIENCE = 60.0

@@ -7,6 +7,7 @@ Leave them out with ``pytest -m "not architecture"``.
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -75,6 +76,15 @@ def test_no_two_classes_have_the_same_name() -> None:
                 places.setdefault(node.name, []).append(str(path.relative_to(ROOT)))
     shared = {name: files for name, files in places.items() if len(files) > 1}
     assert not shared
+
+
+CLAUSE = re.compile(
+    r'^\s*"""(?:\w+ )?(?:what|how|which|where|when|whatever|who)\b', re.IGNORECASE | re.MULTILINE
+)
+
+
+def test_first_lines_of_docstrings_have_a_noun_as_their_object() -> None:
+    assert [(str(path), line) for path in SOURCES for line in CLAUSE.findall(path.read_text("utf-8"))] == []
 
 
 def _is_long(path: Path) -> bool:

@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept: in a folder named by all that their machine code is made from.
+"""Storage of compiled kernels: a folder named by all sources of their machine code.
 
 Numba compiles a function again when its own file has changed, but not when a function that it calls has. So
 after any change to any kernel, nothing that was compiled before is found: the folder has another name. What
@@ -33,7 +33,7 @@ _config: Final[Any] = nb.config  # made from the environment: its names are in n
 _SWITCHES: Final = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT")
 """Settings of numba that change what it compiles."""
 _LAYOUT: Final = 2
-"""Counts how compiled functions have been laid out in files."""
+"""Number of the layout of compiled functions in files."""
 _DIGITS: Final = 32
 _DIGEST: Final = hashlib.sha256().digest_size
 
@@ -139,7 +139,7 @@ def _processor() -> tuple[str, ...]:
 
 
 def _places(package: str) -> Iterator[Path]:
-    """Yield where the folder of a package may be, the best place first."""
+    """Yield possible places of the folder of a package, the best place first."""
     # Not as numba has it, which also reads a file of the working directory that may be anybody's.
     if given := os.environ.get("NUMBA_CACHE_DIR"):
         yield Path(given).absolute() / package
@@ -191,7 +191,7 @@ class _Locator(caching._CacheLocator):
         return _hash(self._py_file)
 
     def get_disambiguator(self) -> str:
-        """Return what distinguishes functions of one name, the same in every copy of the package."""
+        """Return a name that distinguishes functions of one name, the same in every copy of the package."""
         place = self._sources.name_of(Path(self._py_file))
         return f"{hashlib.sha256(place.encode()).hexdigest()[:12]}-{self._line}{self._kind}"
 
@@ -284,7 +284,7 @@ class _KernelCache(caching.FunctionCache):
         return found
 
     def _claim(self, signature: Any) -> str:
-        """Return what identifies a compiled function, in every process."""
+        """Return the key of a compiled function, in every process."""
         return f"{self._impl.filename_base} {signature}"
 
     def _load(self, signature: Any, target: Any) -> Any:

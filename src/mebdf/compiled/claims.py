@@ -1,4 +1,4 @@
-"""Which process compiles which function, where several fill one folder of machine code."""
+"""Claims on functions that a process compiles, where several fill one folder of machine code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How functions are compiled, in one place.
+"""Compilation of functions, in one place.
 
 All of them are kept on disk (:mod:`mebdf.compiled.cache`). Division by zero gives inf or NaN, which the
 integrators watch for: checking every division would cost more than the division.

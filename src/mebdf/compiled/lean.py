@@ -23,7 +23,7 @@ from numba.core.environment import lookup_environment
 from numba.core.funcdesc import default_mangler
 
 _KIND: Final = "lean"
-"""How the content of a kept library is laid out, beside numba's ``object`` and ``bitcode``."""
+"""Layout of a kept library, beside numba's ``object`` and ``bitcode``."""
 _IN_THIS_PROCESS: Final = "numba.dynamic.globals"
 _LONGEST: Final = 256
 _BEGINNING: Final = 160
@@ -98,7 +98,7 @@ class LeanLibrary(codegen.JITCodeLibrary):
                 code.set_env(each.name, environment)
 
     def kept(self) -> tuple[str, str, Any]:
-        """Return what is kept of the library: machine code, if any was made, and intermediate code."""
+        """Return the kept parts of the library: machine code, if any was made, and intermediate code."""
         code, symbols = None, frozenset[str]()
         if self._finalized:
             module = self._final_module
@@ -121,7 +121,7 @@ class LeanLibrary(codegen.JITCodeLibrary):
         return self
 
     def _get_module_for_linking(self) -> Any:
-        """Return what a library of numba's own kind, which calls this one, contains."""
+        """Return the content of a library of numba's own kind, which calls this one."""
         return self._whole()
 
     def _for_callers(self) -> Any:
@@ -178,7 +178,7 @@ def use(context: Any) -> None:
 
 
 def reduced(compiled: Any) -> tuple[Any, ...]:
-    """Return what is kept of a compiled function."""
+    """Return the kept parts of a compiled function."""
     library: Any = compiled.library
     if isinstance(library, LeanLibrary):
         compiled.library.serialize_using_object_code = library.kept

@@ -85,7 +85,7 @@ def prune(parent: Path, pattern: str) -> None:
 
 
 def _last_use(folder: Path) -> float:
-    """Return when a folder was marked last [s], 0 if it is gone meanwhile."""
+    """Return the time at which a folder was marked last [s], 0 if it is gone meanwhile."""
     with suppress(OSError):
         return folder.stat().st_mtime
     return 0.0

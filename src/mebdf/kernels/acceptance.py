@@ -27,9 +27,9 @@ FALSE: Final = -1
 IN_DOUBT: Final = 2
 
 PROVED: Final = 0.5
-"""What a correction must leave of the residual, at most, to prove the Jacobian."""
+"""Share of the residual that a correction must leave, at most, to prove the Jacobian."""
 REFUTED: Final = 0.9
-"""What it leaves, at least, where the Jacobian is wrong."""
+"""Share that it leaves, at least, where the Jacobian is wrong."""
 TRUSTED: Final = 10.0
 """Residual that needs no proof, at most, relative to the largest one that the Jacobian was seen to remove."""
 REACHED: Final = 1.0e-2
@@ -42,7 +42,7 @@ HARMLESS: Final = 0.1
 NOISE: Final = 10.0 * float(np.finfo(np.float64).eps)
 """Rounding of the residual relative to its terms."""
 ABOVE_NOISE: Final = 10.0
-"""How far a magnified correction must change the residual beyond rounding."""
+"""Least change of the residual by a magnified correction, over rounding."""
 
 
 @inlined

@@ -1,4 +1,4 @@
-"""Which order and which step next: error tests, growth, and the way back from failures."""
+"""Choice of order and step: error tests, growth, and the way back from failures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mebdf.kernels.phases import ERROR_TEST, NEWTON, STEP
 from mebdf.kernels.state import Numbers
 
 SMALLEST_SCALE = 1.0e-300
-"""What stands for a tolerance of zero where the solution is zero too."""
+"""Least scale, for a tolerance of zero where the solution is zero too."""
 CAUTION = 1
 """Steps that must prove their stages after Newton's iteration has failed."""
 MOST_CAUTION = 7
@@ -28,7 +28,7 @@ LEAST_STEP = 10.0 * float(np.finfo(np.float64).eps)
 ROUNDED = 1.0e-8
 """Relative change of a step by the rounding of the time above which the step itself is rounded."""
 FAILED_NEWTON = 0.25
-"""What the step is multiplied by when Newton's iteration fails although the Jacobian is new."""
+"""Factor of the step when Newton's iteration fails although the Jacobian is new."""
 
 
 @inlined

@@ -9,6 +9,6 @@ from mebdf.compiled.cache import Sources
 from mebdf.compiled.jit import decorators
 
 SOURCES: Final = Sources(Path(__file__).parents[1], ("kernels/**/*.py", "compiled/*.py", "arrays.py"))
-"""What the machine code of the solver is made from."""
+"""Sources of the solver's machine code."""
 
 entry, kernel, unlocked, inlined = decorators(SOURCES)

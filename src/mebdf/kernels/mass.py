@@ -17,7 +17,7 @@ from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.state import ERROR_WEIGHT, POWER, ROW_WEIGHT, TESTED, WEIGHT, Y
 
 SMALLEST: Final = 1.0e-300
-"""What stands for the weight of a variable of higher index before there is a step."""
+"""Weight of a variable of higher index before there is a step."""
 
 
 @inlined

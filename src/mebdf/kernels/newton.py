@@ -51,7 +51,7 @@ LATE: Final = 5
 FORGIVEN: Final = 10.0
 """Most that such values may be wrong, in units of the tolerance."""
 LARGER_CHANGE: Final = 30.0
-"""How many times as far from its extrapolation as stage 1 stage 2 may be."""
+"""Largest distance of stage 2 from its extrapolation over that of stage 1."""
 NO_CHANGE: Final = 1.0e-3
 """Distance from the extrapolation, as an error in units of the tolerance, that stage 1 is given at least."""
 
@@ -63,7 +63,7 @@ def start_stage(
     mass: FloatArray,
     places: NDArray[np.int64],
 ) -> int:
-    """Fill what the stage knows already, predict, and ask for f where it is not known."""
+    """Fill the known part of the stage, predict, and ask for f where it is not known."""
     stage, h = state.stage, state.h
     _set_constant(state, rows)
     state.iteration = state.evaluated = 0

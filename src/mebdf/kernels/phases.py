@@ -1,4 +1,4 @@
-"""Where the machine stands between two calls, and what it asks of its caller."""
+"""Phases of the machine between two calls, and its requests to the caller."""
 
 from __future__ import annotations
 

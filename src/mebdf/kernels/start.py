@@ -64,7 +64,7 @@ def _ask(state: Numbers, rows: FloatArray, h: float, phase: int) -> int:
 
 @kernel
 def remember_not_finite(state: Numbers, rows: FloatArray) -> bool:
-    """Remember where f is not finite; tell whether there was such a place."""
+    """Remember a place where f is not finite; tell whether there was one."""
     for i in range(rows.shape[1]):
         if not math.isfinite(rows[at.F, i]):
             state.bad = i

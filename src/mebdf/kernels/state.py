@@ -37,7 +37,7 @@ Y: Final = 3
 F: Final = 4
 """Derivative the caller fills in."""
 CONSTANT: Final = 5
-"""What a stage knows before it starts."""
+"""Part of a stage's formula that does not depend on its value."""
 Y_1: Final = 6
 F_1: Final = 7
 Y_2: Final = 8
@@ -48,7 +48,7 @@ RESIDUAL: Final = 11
 PREDICTED: Final = 12
 """Extrapolation to the point of the stage."""
 CONSTANT_3: Final = 13
-"""What stage 3 takes from the history."""
+"""Part of stage 3 from the history."""
 MAGNITUDE: Final = 14
 """|y_i| + |hβ| Σ_j |J_ij y_j|: the rounding of the residual is a share of it."""
 ERROR_WEIGHT: Final = 15
@@ -100,7 +100,7 @@ class Settings:
     disagreement: float = 1.9
     """Largest distance of y_{n+1} from ȳ1 in units of the tolerance."""
     forget: float = 0.28
-    """How much of the estimated convergence rate the next stage inherits."""
+    """Share of the estimated convergence rate that the next stage inherits."""
     wait: float = 2.0
     """Steps to wait, beyond k, before order and step are chosen anew."""
     shrink: float = 1.9
@@ -141,13 +141,13 @@ class Numbers:
     error: float
     direction: float
     relaxation: float
-    """What Newton corrections are multiplied by because the matrix belongs to another step."""
+    """Factor of Newton corrections because the matrix belongs to another step."""
     t_bad: float
     """Time at which the right-hand side was not finite last."""
     unsolved: float
     """Norm of the residual of the formula, in units of the tolerance, where f was known last."""
     left: float
-    """What the last correction has left of the residual; 1 where that is not known."""
+    """Share of the residual that the last correction has left; 1 where that is not known."""
     t_mark: float
     """Time at which failures began to be counted."""
     trust: float
@@ -155,7 +155,7 @@ class Numbers:
     reached: float
     """Smallest residual, in units of the tolerance, to which it was seen to reduce one."""
     overshot: float
-    """What the last correction was magnified by to rise above rounding, 0 where it was not."""
+    """Factor by which the last correction was magnified to rise above rounding, 0 where it was not."""
     trace_of_j: float
     """Trace of the Jacobian in use."""
     phase: int
@@ -211,7 +211,7 @@ class Numbers:
     sign: int
     """Sign of the determinant of the iteration matrix, 0 where it is singular."""
     back: int
-    """Which Jacobian is in use: 0 the newest, 1 the one before it, 2 zero (with a mass matrix still that)."""
+    """Jacobian in use: 0 the newest, 1 the one before it, 2 zero (with a mass matrix still that)."""
     higher: int
     """Whether a variable has an index above 1: constraints must then hold better than the tolerance."""
     implicit: int

@@ -39,7 +39,7 @@ each coordinate stays."""
 
 
 class Actions(NamedTuple):
-    """What moves and loads a mechanism.
+    """Drives and loads of a mechanism.
 
     Attributes
     ----------

@@ -14,6 +14,6 @@ SOURCES: Final = Sources(
     ("kernels/**/*.py", "core/arrays.py", "core/quantities.py", "core/tables.py"),
     below=(SOLVER,),
 )
-"""What machine code is made from: kernels, what they import from outside their package, and the solver."""
+"""Sources of the machine code: kernels, their imports from outside their package, and the solver."""
 
 entry, kernel, unlocked, inlined = decorators(SOURCES)

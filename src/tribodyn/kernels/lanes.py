@@ -125,7 +125,7 @@ def _spread(typing: Any, number: Any) -> Any:
 
 
 def _called(name: str, builder: Any, arguments: Any) -> Any:
-    """Return what an instruction of the compiler makes of each lane alone."""
+    """Return the result of an instruction of the compiler for each lane alone."""
     kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(arguments))
     function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
     return builder.call(function, arguments)
@@ -307,7 +307,7 @@ Read from there they are at hand sooner than from lanes; the array says nothing 
 entries_at: Final = _either(_entries_at, lambda array, places, place: array[_named(places, place)])
 """Return the entries of an array that the numbers name that ``store_places`` wrote into ``places``."""
 rows_at: Final = _either(_rows_at, lambda array, places, place: _table_rows(array, _named(places, place)))
-"""Return what ``rows`` does, for such numbers."""
+"""Return the result of ``rows`` for such numbers."""
 parts: Final = _either(_parts, tuple)
 """Return the four numbers."""
 total: Final = _either(_total, lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))

@@ -35,7 +35,7 @@ def interval(position: float, last: float) -> tuple[float, float]:
 
 @inlined
 def offset(number: float) -> Any:
-    """Return where the coefficients of an interval begin, unsigned: no index is taken from the end."""
+    """Return the begin of an interval's coefficients, unsigned: no index is taken from the end."""
     first: Any = np.uint64(8) * np.uint64(np.int32(number))
     return first
 

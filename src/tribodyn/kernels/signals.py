@@ -22,7 +22,7 @@ Piece: Final = record_type(("until", "f8"), ("left", "f8"), ("c", "f8", (5,)))
 
 
 class Signals(NamedTuple):
-    """What drives and loads follow.
+    """Signals of drives and loads.
 
     Attributes
     ----------

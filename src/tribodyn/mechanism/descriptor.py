@@ -7,13 +7,13 @@ from typing import Final
 
 from tribodyn.cases.load import BuiltIn, flat
 from tribodyn.core import toml
-from tribodyn.mechanisms.base import MechanismDescriptor
+from tribodyn.mechanism.library import BUILT_IN, TEMPLATES
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
 from tribodyn.mechanism.results.joint_numbers import BY_JOINT
 from tribodyn.mechanism.results.mechanism_results import KEY_NUMBERS, KEY_RESULTS
-from tribodyn.mechanism.library import BUILT_IN, TEMPLATES
 from tribodyn.mechanism.results.mode_numbers import BY_MODE
-from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
+from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 
 

@@ -26,19 +26,26 @@ from tribodyn.cases.rough import RoughCase
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
 from tribodyn.joints.resolution import FEWEST
-from tribodyn.mechanisms.base import plain
-from tribodyn.mechanism.model import solids
-from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys, doors_of, given_of
-from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.elements import ELEMENTS
-from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.elements.controller import Controller, check_functions
+from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.frames import GROUND
+from tribodyn.mechanism.model import solids
+from tribodyn.mechanism.model.body import BodyKeys
+from tribodyn.mechanism.model.drives_and_loads import (
+    COORDINATE_OF,
+    GIVEN,
+    DriveKeys,
+    LoadKeys,
+    doors_of,
+    given_of,
+)
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
 from tribodyn.mechanism.model.pairs import PairKeys, friction_of
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
+from tribodyn.mechanisms.base import plain
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 
 _PAIRS: Final = "pairs"

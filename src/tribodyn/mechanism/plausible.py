@@ -10,10 +10,10 @@ import numpy as np
 
 from tribodyn.cases.groups import Wear
 from tribodyn.cases.messages import Remarks
-from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys, LoadKeys
-from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.elements.stop import Stop
+from tribodyn.mechanism.model.body import BodyKeys
+from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanism.model.parts import JointKeys, SpringKeys
 from tribodyn.mechanism.run_keys import RunKeys
 

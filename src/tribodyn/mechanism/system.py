@@ -18,24 +18,40 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
-from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
-from tribodyn.mechanisms.checks import named, of_clearance, of_tables
-from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.analyses.analysis import NOTES, analysed
-from tribodyn.mechanism.assembly.assembly import Assembly, assemble
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.assembly.passage import drive_through
-from tribodyn.mechanism.results.element_numbers import transmitted
-from tribodyn.mechanism.results.mechanism_energy import TERMS, WHOLE, balance_columns
-from tribodyn.mechanism.results.film_variables import film_coordinates, film_maps, film_peaks
-from tribodyn.mechanism.results.joint_flash import flash_temperatures
-from tribodyn.mechanism.results.followed import followed
 from tribodyn.mechanism.analyses.following import following
 from tribodyn.mechanism.analyses.ideal_motion import compared
+from tribodyn.mechanism.analyses.sampling import sampled
+from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, without_friction
+from tribodyn.mechanism.assembly.assembly import Assembly, assemble
+from tribodyn.mechanism.assembly.clearance_surfaces import material_of
+from tribodyn.mechanism.assembly.mechanism_problem import (
+    least_energy,
+    mechanism_problem,
+    stored_energy,
+    template,
+)
+from tribodyn.mechanism.assembly.output_values import MOTION, Motion, Output, outputs_of
+from tribodyn.mechanism.assembly.parts_by_number import Model, model_of
+from tribodyn.mechanism.assembly.passage import drive_through
+from tribodyn.mechanism.assembly.positions import DrivePath
+from tribodyn.mechanism.assembly.start import initial_state
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.mechanism_variables import (
+    AXES,
+    ENTRIES,
+    Observed,
+)
+from tribodyn.mechanism.model.reversals import Reversals
+from tribodyn.mechanism.results import mechanism_checks as checks
+from tribodyn.mechanism.results.contacts import Contacts
+from tribodyn.mechanism.results.element_numbers import transmitted
+from tribodyn.mechanism.results.film_variables import film_coordinates, film_maps, film_peaks
+from tribodyn.mechanism.results.followed import followed
+from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import Layout, columns, frames, layout_of, not_kept, note
 from tribodyn.mechanism.results.maps import Maps
-from tribodyn.mechanism.assembly.parts_by_number import Model, model_of
+from tribodyn.mechanism.results.mechanism_energy import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.openings import (
     from_time,
     of_temperatures,
@@ -45,21 +61,10 @@ from tribodyn.mechanism.results.openings import (
 )
 from tribodyn.mechanism.results.output_columns import instant_errors, kinematic_columns, output_coordinates
 from tribodyn.mechanism.results.output_lives import error_growth
-from tribodyn.mechanism.assembly.output_values import MOTION, Motion, Output, outputs_of
-from tribodyn.mechanism.assembly.positions import DrivePath
-from tribodyn.mechanism.assembly.mechanism_problem import least_energy, mechanism_problem, stored_energy, template
-from tribodyn.mechanism.model.reversals import Reversals
-from tribodyn.mechanism.analyses.sampling import sampled
 from tribodyn.mechanism.results.slow_sliding import of_slow_sliding
-from tribodyn.mechanism.assembly.start import initial_state
-from tribodyn.mechanism.assembly.clearance_surfaces import material_of
-from tribodyn.mechanism.mechanism_variables import (
-    AXES,
-    ENTRIES,
-    Observed,
-)
-from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, without_friction
 from tribodyn.mechanism.results.worn import depth_of, least_roughness, worn_model
+from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
+from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_life import lives
 from tribodyn.mechanisms.playback import frame_times, shown

@@ -10,11 +10,11 @@ import numpy as np
 
 from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.kernels.mechanism.data import N_STATES
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.kept import frames, layout_of
-from tribodyn.mechanism.model.parts import ClearanceKeys
-from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanism.assembly.clearance_surfaces import grid_of
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.parts import ClearanceKeys
+from tribodyn.mechanism.results.kept import frames, layout_of
+from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 
 _STEPS: Final = (300.0, 500.0, 1500.0)

@@ -6,9 +6,9 @@ from tribodyn.cases.keys import keys_of
 from tribodyn.cli.main import COMMANDS
 from tribodyn.core.errors import InputError
 from tribodyn.core.synonyms import SYNONYMS
-from tribodyn.mechanisms.catalogue import kinds, load_case, parse_case
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanisms.catalogue import kinds, load_case, parse_case
 
 BODY = '[bodies.rod]\nmass = "1 kg"\ncentre = "0, 0, 0 mm"\ninertia = "1e-4, 1e-4, 1e-4 kg m^2"\n'
 JOINT = '[joints.pivot]\nbetween = ["ground", "rod"]\npoint = "0, 0, 0 mm"\naxis = [0, 0, 1]\n'

@@ -6,8 +6,8 @@ import pytest
 
 import tribodyn as td
 from tribodyn.joints.resolution import FEWEST, MOST, resolving
-from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanisms.bushing import grid_of
 
 
 def test_wider_clearances_and_smoother_surfaces_have_more_nodes():

@@ -14,16 +14,16 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Statistics
 from tribodyn.integrate import integrate
 from tribodyn.joints.clearances import Clearance
-from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.assembly.assembly import assemble
-from tribodyn.mechanism.model.body import BodyKeys
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.joints import JOINTS
-from tribodyn.mechanism.assembly.parts_by_number import Model
-from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
-from tribodyn.mechanism.run_keys import RunKeys
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import AXES, Observed, observed
+from tribodyn.mechanism.model.body import BodyKeys
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
+from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys
+from tribodyn.mechanism.run_keys import RunKeys
 
 G = "ground"
 UP, X, Y, Z = (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)

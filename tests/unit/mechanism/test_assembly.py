@@ -24,11 +24,11 @@ from tests.unit.mechanism.drawings import (
 import tribodyn as td
 from tribodyn.cases.signals import AngleSignal
 from tribodyn.core.errors import InputError
-from tribodyn.mechanism.model.drives_and_loads import DriveKeys
 from tribodyn.mechanism.assembly.assembly import assemble
-from tribodyn.mechanism.builder.mechanism_builder import Mechanism
-from tribodyn.mechanism.assembly.passage import drive_through
 from tribodyn.mechanism.assembly.parts_by_number import Model, model_of
+from tribodyn.mechanism.assembly.passage import drive_through
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys
 
 
 def four_bar(crank: float = 0.2) -> Model:

@@ -12,10 +12,10 @@ from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
 from tribodyn.joints.resolution import resolving
 from tribodyn.joints.shapes import Cylinder
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.assembly.records import mechanism_data
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.assembly.records import mechanism_data
-from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.studies.plan import make_plan
 
 CASE = parsed()

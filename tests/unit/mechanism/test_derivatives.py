@@ -9,12 +9,12 @@ from tests.unit.mechanism.drawings import body, joint, mechanism, vector
 from tribodyn.cases.signals import AngleSignal, ForceMap, ForceSignal, TorqueMap, VelocitySignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
-from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.assembly.assembly import assemble
-from tribodyn.mechanism.model.body import BodyKeys
-from tribodyn.mechanism.assembly.parts_by_number import Model
-from tribodyn.mechanism.model.parts import JointKeys, SpringKeys
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.model.body import BodyKeys
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
+from tribodyn.mechanism.model.parts import JointKeys, SpringKeys
 
 Signal = AngleSignal | ForceSignal | ForceMap | TorqueMap | VelocitySignal
 T = 0.3

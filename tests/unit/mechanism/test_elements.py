@@ -21,18 +21,18 @@ from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import COORDINATE, DISTANCE, N_STATES, NONE, PATH, TURNING, VELOCITY
 from tribodyn.kernels.mechanism.law import fill_law
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
-from tribodyn.mechanism.builder.mechanism_builder import Mechanism
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.assembly.skeleton import skeleton
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.elements.gear import Gear
 from tribodyn.mechanism.elements.stop import one_sided
 from tribodyn.mechanism.figures.mechanism import draw
-from tribodyn.mechanism.assembly.parts_by_number import model_of
-from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections import mechanism
-from tribodyn.mechanism.assembly.skeleton import skeleton
 
 
 class WithBacklash(Gear):

@@ -10,8 +10,8 @@ import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.mechanism import functions
 from tribodyn.lubrication import Film, FilmGrid, stacked_data
-from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanism.system import MechanismSystem
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results import VARIABLES
 

@@ -10,9 +10,9 @@ import pytest
 import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.joints.clearances import Clearance, places
-from tribodyn.mechanisms.bushing import bushing_of
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanisms.bushing import bushing_of
 
 EXPANSION = {
     "surfaces.trunnion.thermal_expansion": "12e-6 1/K",

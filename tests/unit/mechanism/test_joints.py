@@ -20,14 +20,13 @@ from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.kernels.mechanism.bodies import move
 from tribodyn.kernels.mechanism.data import N_STATES, TURNING, VELOCITY
 from tribodyn.mechanism.assembly.assembly import assemble
-from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import ALIGNED
-from tribodyn.mechanism.assembly.parts_by_number import model_of
-from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
-from tribodyn.mechanism.shapes import SHAPES
-from tribodyn.mechanism.shapes import shapes_of
+from tribodyn.mechanism.shapes import SHAPES, shapes_of
 
 OVER_ALL = pytest.mark.parametrize("kind", JOINTS)
 CONSTRAINTS = [name for name, kind in JOINTS.items() if kind.ROWS]

@@ -8,10 +8,10 @@ import pytest
 import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE
+from tribodyn.mechanism.mechanism_variables import BODIES, JOINTS, OIL, observed
 from tribodyn.mechanism.results.kept import OF_LARGE, Layout, frames, layout_of, not_kept
 from tribodyn.mechanism.sections.mechanism import data
 from tribodyn.mechanism.system import MechanismSystem
-from tribodyn.mechanism.mechanism_variables import BODIES, JOINTS, OIL, observed
 from tribodyn.mechanisms.results import all_there, summarise
 from tribodyn.results import json_attribute
 from tribodyn.views.playback import playback_times

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanism.figures.joints import draw_maps
+from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanism.sections import joints
 
 NAMES = [f"pin{k}" for k in range(12)]

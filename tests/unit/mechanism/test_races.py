@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tribodyn as td
-from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.assembly.races import axes_of
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 TURN = Rotation.from_rotvec([0.4, -0.7, 1.1]).as_matrix()
 RACE = {"radius": "6 mm", "radial": "20 um", "nodes_around": 36, "nodes_along": 6}

@@ -8,8 +8,8 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.mechanisms import results
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanisms import results
 
 WEIGHT = 9.81
 RUN = {"duration": "2 ms", "output_interval": "1 ms"}

@@ -11,13 +11,13 @@ import xarray as xr
 from tests.unit.mechanism.made_up import N, result
 
 from tribodyn.cases.case import with_entries
-from tribodyn.mechanisms import results
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanism.assembly.skeleton import case_of, rotated, skeleton, view
 from tribodyn.mechanism.figures import FIGURES
+from tribodyn.mechanism.mechanism_variables import VARIABLES
 from tribodyn.mechanism.sections import CHAPTERS
 from tribodyn.mechanism.sections.mechanism import at_frames, data
-from tribodyn.mechanism.assembly.skeleton import case_of, rotated, skeleton, view
-from tribodyn.mechanism.mechanism_variables import VARIABLES
+from tribodyn.mechanisms import results
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.schema import check
 from tribodyn.views.encode import Packed
 from tribodyn.views.playback import playback_times

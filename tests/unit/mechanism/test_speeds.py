@@ -7,9 +7,9 @@ import pytest
 
 import tribodyn as td
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
+from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.system import MechanismSystem
 
 

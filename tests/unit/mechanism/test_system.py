@@ -12,10 +12,10 @@ from tests.unit.mechanism.slider_crank import IDEAL, parsed
 
 import tribodyn as td
 from tribodyn.cases.case import with_entries
+from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms import results
 from tribodyn.mechanisms.bushing import bushing_of
-from tribodyn.mechanism.builder.mechanism_builder import Mechanism
-from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 
 PLAIN = parsed(
     IDEAL.split("[pairs")[0] + '[drives.motor]\njoint = "main"\nspeed = "5000 rpm"\n[run]\ncycles = 1\n'

@@ -13,6 +13,8 @@ import pytest
 from tribodyn.contact import law
 from tribodyn.joints.clearances import Clearance, places
 from tribodyn.joints.shapes import Cylinder
+from tribodyn.mechanism.results import mechanism_checks as general_checks
+from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.checks import (
     AREA_LIMIT,
@@ -26,11 +28,9 @@ from tribodyn.mechanisms.checks import (
     ROUGH_LIMIT,
     instant,
 )
-from tribodyn.mechanism.results import mechanism_checks as general_checks
-from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.presets.journal import checks as journal_checks
 from tribodyn.papers.cheng_2022.reduced import checks
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
+from tribodyn.presets.journal import checks as journal_checks
 
 T_END = 2.0
 PEAK = 0.7503

@@ -13,7 +13,7 @@ from numba.extending import intrinsic
 MANTISSA: Final = 52
 """Bits of a mantissa."""
 BIAS: Final = 1023
-"""What is added to an exponent."""
+"""Offset of an exponent."""
 FRACTION: Final = (1 << MANTISSA) - 1
 """Bits of the fraction of a number."""
 ONE: Final = BIAS << MANTISSA

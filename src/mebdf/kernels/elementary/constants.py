@@ -11,7 +11,7 @@ from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary.doubled import two_parts
 
 _BITS: Final = 320
-"""Of what is kept as one or two numbers of 53 bits."""
+"""Constants kept as one or two numbers of 53 bits."""
 _BITS_OF_PI: Final = 1280
 """Those of 2/π that the largest arguments need, see :data:`DIGITS`."""
 
@@ -75,7 +75,7 @@ def _inverse(j: int) -> Fraction:
 
 _INVERSES: Final = [_inverse(j) for j in range(1 << LOGARITHM_BITS)]
 INVERSES: Final = np.array([float(c) for c in _INVERSES])
-"""What a mantissa is multiplied by, of eight bits, so that the product is near 1, shape (128,)."""
+"""Factors of a mantissa of eight bits, so that the product is near 1, shape (128,)."""
 LOGARITHMS: Final = _table([-_logarithm(c) for c in _INVERSES], 42)
 """−ln of these, shape (128, 2); the first parts are multiples of 2⁻⁴²."""
 LN2: Final = two_parts(_LN2, 42)

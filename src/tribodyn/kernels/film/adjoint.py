@@ -196,7 +196,7 @@ def _mirror(chart: FloatArray) -> None:
 def _theta_sums(
     film: FilmData, memory: FilmMemory, omega: float, m: int, explicit: float, rows: int, d_zeta: float
 ) -> float:
-    """Sum what θ faces and nodes add to the derivatives by offset and velocity; return that by ω."""
+    """Add the derivatives of θ faces and nodes by offset and velocity; return that by ω."""
     fields, sums, adjoint, pressure = memory.fields, memory.gradient[m], memory.adjoint[m], memory.pressure
     lean = memory.work.lean
     n = pressure.shape[0]
@@ -242,7 +242,7 @@ def _theta_sums(
 
 @kernel
 def _z_sums(memory: FilmMemory, m: int, rows: int, half: bool) -> None:
-    """Sum what z faces add to the derivatives by offset."""
+    """Add the derivatives of z faces by offset."""
     fields, sums, adjoint, pressure = memory.fields, memory.gradient[m], memory.adjoint[m], memory.pressure
     for i in range(pressure.shape[0]):
         c, s = fields.columns[i].cos_node, fields.columns[i].sin_node

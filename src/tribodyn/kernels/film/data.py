@@ -1,4 +1,4 @@
-"""What the kernels of the film read, and what they change."""
+"""Data and memory of the kernels of the film."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ arm_rate
 
 
 class FilmData(NamedTuple):
-    """What the kernels of a film read.
+    """Data of the kernels of a film.
 
     Nodes are uniform in θ and z; those at both ends (z = ∓length/2) carry p = 0. ``theta`` fields live on
     faces half a step after a node in θ, ``z`` fields half a step after it in z.

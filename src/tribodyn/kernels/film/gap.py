@@ -135,7 +135,7 @@ def z_face(film: FilmData, gap: float) -> tuple[float, float, float, float]:
 
 @kernel
 def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
-    """Fill what lives on θ faces and return the smallest gap there [m]."""
+    """Fill the arrays on θ faces and return the smallest gap there [m]."""
     n = film.columns.size
     d_zeta = film.constants.length / (film.z_face.size * film.constants.radius)
     shape = d_zeta * n / (2.0 * math.pi)
@@ -173,7 +173,7 @@ def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> 
 
 @kernel
 def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: bool) -> float:
-    """Fill what lives on z faces and return the smallest gap there [m].
+    """Fill the arrays on z faces and return the smallest gap there [m].
 
     The face above the middle of a symmetric film carries no flow.
     """

@@ -1,4 +1,4 @@
-"""What is observed of the oil film of a joint."""
+"""Observed quantities of the oil film of a joint."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is reported of the last evaluation of a film besides its wrench."""
+"""Report of the last evaluation of a film besides its wrench."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def film_leakage(film: FilmData, memory: FilmMemory) -> float:
 
 @kernel
 def _outflow(film: FilmData, memory: FilmMemory, i: int, j: int, inward: int) -> float:
-    """Return what leaves the end next to row ``j``: slope of a parabola, conductance carried on to it."""
+    """Return the outflow at the end next to row ``j``: slope of a parabola, conductance carried on to it."""
     first, second = memory.pressure[i, j], memory.pressure[i, j + inward]
     if film.constants.cavitation == HALF_SOMMERFELD:
         first, second = max(first, 0.0), max(second, 0.0)

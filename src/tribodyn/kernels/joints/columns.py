@@ -30,7 +30,7 @@ STIFFNESS: Final = 8 * PITCH
 RESISTANCE: Final = 9 * PITCH
 """∂P_c/∂h [Pa/m] and ∂P_c/∂δ̇ [Pa s/m]."""
 OTHERS: Final = 10 * PITCH
-"""Where the columns of a kind of joint begin."""
+"""Begins of the columns of a kind of joint."""
 
 
 @inlined

@@ -43,7 +43,7 @@ Oil: Final = record_type(
     ("report", Report),
     ("peaks", Peaks),
 )
-"""What a film does to its joint.
+"""Wrench of a film on its joint.
 
 film, wrench
     Wrench of the film in the middle of the bore, see ``kernels.film``, and on the shaft at its origin.

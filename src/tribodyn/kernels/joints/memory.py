@@ -1,4 +1,4 @@
-"""What a bushing remembers: where contact began, how it slid, its extremes; and what it works with."""
+"""Memory of a bushing: where contact began, how it slid, its extremes; and its work arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the shaft of a joint is in its socket and how it moves, right-handed, in the socket's frame.
+"""Pose of a joint's shaft in its socket and its rates, right-handed, in the socket's frame.
 
 Wrenches are (F_x, F_y, F_z, M_x, M_y, M_z) on the shaft, moments about its origin; their derivatives are
 taken with respect to displacement, tilt, velocity and rates of turning, three of each.

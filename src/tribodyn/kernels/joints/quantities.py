@@ -1,4 +1,4 @@
-"""What is told about a clearance joint: its coordinates, its report of an instant, its extremes.
+"""Quantities of a clearance joint: its coordinates, its report of an instant, its extremes.
 
 Signs are those of the source paper: φ_x and M_x right-handed, φ_y and M_y left-handed.
 """
@@ -56,7 +56,7 @@ WATCHED: Final = (
 )
 """Sizes whose peaks are kept, see ``kernels/peaks.py``."""
 SHARP: Final = 4
-"""How many of them, the first ones, have sharp peaks: forces and pressure."""
+"""Number of those, the first ones, with sharp peaks: forces and pressure."""
 
 EXTREMES: Final = (
     Quantity("separation_least", "m", "smallest gap at any accepted step", ()),

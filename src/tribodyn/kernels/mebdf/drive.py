@@ -47,7 +47,7 @@ SKIPPED: Final = 5
 
 
 class Marks(NamedTuple):
-    """When to take what, and what was taken.
+    """Schedule of outputs and pictures, and those taken.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ from tribodyn.kernels.jit import kernel
 
 
 class OwnMatrix(NamedTuple):
-    """What a problem's own algebra works on.
+    """Work arrays of a problem's own algebra.
 
     Attributes
     ----------

@@ -48,7 +48,7 @@ from tribodyn.kernels.signals import Signals, evaluate
 
 @kernel
 def prescribe(coupling: Record, now: Record, signals: Signals, t: float, within: float) -> None:
-    """Fill what the rows follow at a time."""
+    """Fill the prescribed values of the rows at a time."""
     for m in range(coupling.n_terms):
         number = coupling.row_signal[m]
         value, rate, second = 0.0, 0.0, 0.0
@@ -200,7 +200,7 @@ def _across(direction: FloatArray, size: float, matrix: FloatArray) -> None:
 
 @kernel
 def _bend(coupling: Record, now: Record, rate: FloatArray, bent: FloatArray, swung: FloatArray) -> None:
-    """Fill how the direction of a term turns, and, of all but paths, what its second rate changes by.
+    """Fill the rate of a term's direction, and, but for paths, the change of its second rate.
 
     ``now.small`` (3, 3) takes the derivative of the direction; ``bent`` and ``swung`` (3,) take those of the
     second rate in angle or displacement, and in angular or linear velocity.
@@ -227,7 +227,7 @@ def _bend(coupling: Record, now: Record, rate: FloatArray, bent: FloatArray, swu
 
 @kernel
 def _term_gradient(coupling: Record, now: Record, rate: FloatArray, law: Record) -> None:
-    """Add what motion does to the term of a leg, and to the force along it."""
+    """Add the effect of motion on the term of a leg, and on the force along it."""
     bent, swung = now.work[0, :3], now.work[1, :3]
     _bend(coupling, now, rate, bent, swung)
     turns = coupling.row_kind[0] == COORDINATE
@@ -248,7 +248,7 @@ def _term_gradient(coupling: Record, now: Record, rate: FloatArray, law: Record)
 
 @kernel
 def _law_gradient(now: Record, law: Record, scale: float, first: int, column: int) -> None:
-    """Fill what motion does to the equation λ − F = 0 by way of one leg."""
+    """Fill the effect of motion on the equation λ − F = 0 by one leg."""
     for j in range(12):
         rate = 0.0
         for i in range(6):

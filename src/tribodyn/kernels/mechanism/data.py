@@ -1,4 +1,4 @@
-"""What the kernels of a mechanism read and change: bodies and couplings, one record each.
+"""Data and memory of the kernels of a mechanism: bodies and couplings, one record each.
 
 A *coupling* is whatever acts between two bodies: a joint, a spring, a load (between the ground and a body),
 a leg of an element. It has a socket on its first body and a shaft on its second, and up to six constraint
@@ -57,7 +57,7 @@ CONTACT: Final = 7
 TIME: Final = 0
 FOLLOWED: Final = 1
 FOLLOWED_SPEED: Final = 2
-"""What terms of a load may follow, in the order of ``kernels/actions.py``: time, coordinate and speed of a
+"""Variables of a load's terms, in the order of ``kernels/actions.py``: time, coordinate and speed of a
 joint; the latter is the speed that a load opposes where it follows no joint."""
 
 NONE: Final = -1
@@ -67,13 +67,13 @@ INTACT: Final = 0
 OPENED: Final = 1
 OVERLAPPED: Final = 2
 LEFT: Final = 3
-"""What can have become of a joint: nothing, an ideal one has come apart, mean planes overlap further than the
+"""States of a joint: intact, an ideal one has come apart, mean planes overlap further than the
 contact law reaches, the shaft has left its socket."""
 
 PLAIN: Final = 0.0
 SLOPES: Final = 1.0
 REPORTS: Final = 2.0
-"""What forces are asked for: themselves, their derivatives too, or what is told about them.
+"""Evaluation mode of forces: forces alone, with their derivatives, or with their report.
 
 Not integers: numba compiles a kernel again for each one that stands in a call.
 """
@@ -356,7 +356,7 @@ Course: Final = record_type(
     ("broken", "i8"),
     ("broken_at", "i8"),
 )
-"""What the motion has come to: the segment [begin, until] whose pieces of tables hold; accepted steps until
+"""State of the segment [begin, until] whose pieces of tables hold; accepted steps until
 redundant rows are chosen again; energies [J], momentum and external force with moments about the origin; what
 has become of a joint, ``INTACT`` or another of the kinds above, and the number of the coupling that has
 ``OPENED`` or of the surface. From then on no rate is a number, which stops every integrator. Trial states may
@@ -388,7 +388,7 @@ class Pattern(NamedTuple):
 
 
 class Parts(NamedTuple):
-    """What a mechanism is made of, as records named above; most kernels need no more.
+    """Parts of a mechanism, as records named above; most kernels need no more.
 
     Attributes
     ----------
@@ -402,7 +402,7 @@ class Parts(NamedTuple):
 
 
 class Now(NamedTuple):
-    """Where the parts are at one instant, and work space.
+    """Places of the parts at one instant, and work space.
 
     Attributes
     ----------
@@ -421,7 +421,7 @@ class Now(NamedTuple):
 
 
 class MechanismData(NamedTuple):
-    """What the kernels read.
+    """Constant data of the kernels.
 
     Attributes
     ----------
@@ -449,7 +449,7 @@ class MechanismData(NamedTuple):
 
 
 class MechanismMemory(NamedTuple):
-    """What accepted steps change, and work arrays.
+    """History variables, changed at accepted steps, and work arrays.
 
     Attributes
     ----------

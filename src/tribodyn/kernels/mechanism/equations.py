@@ -199,7 +199,7 @@ def _leave(parts: Parts, now: Now) -> None:
 def _leave_rows(
     coupling: Record, matrix: FloatArray, first: int, x: FloatArray, left: FloatArray, body: int
 ) -> None:
-    """Take what rows and a body have to do with each other from what is left of both."""
+    """Subtract the products of rows and a body from the rest of both."""
     held = 1.0 if coupling.law == 0 else 0.0
     for m in range(coupling.n_terms):
         size, total = x[coupling.node, m], 0.0

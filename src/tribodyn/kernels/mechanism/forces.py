@@ -82,7 +82,7 @@ def force(
 
 @kernel
 def _open(coupling: Record, pose: Record, signals: Signals, t: float, within: float) -> None:
-    """Fill what temperatures have done to the clearance of a joint."""
+    """Fill the growth of a joint's clearance by temperatures."""
     for i in range(2):
         if coupling.opening[i] != NONE:
             pose.opening[i], pose.v_opening[i], _ = evaluate(signals, coupling.opening[i], t, within)

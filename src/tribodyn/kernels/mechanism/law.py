@@ -32,7 +32,7 @@ _BYTES: Final = ir.IntType(8).as_pointer()
 
 @cache
 def address_of(function: Function, parameters: RecordType) -> int:
-    """Return where the compiled code of a law is.
+    """Return the address of a law's compiled code.
 
     Parameters
     ----------

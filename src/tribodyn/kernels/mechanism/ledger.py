@@ -47,7 +47,7 @@ def fill_totals(data: Parts, memory: Now) -> None:
 
 @kernel
 def _add_ground(data: Parts, memory: Now, number: int) -> None:
-    """Add what a coupling to the ground does to the bodies."""
+    """Add the forces of a coupling to the ground on the bodies."""
     coupling, now, ground = data.couplings[number], memory.couplings[number], data.bodies.size
     if coupling.socket != ground and coupling.shaft != ground:
         return

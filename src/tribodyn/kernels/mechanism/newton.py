@@ -57,7 +57,7 @@ N_COMPLIANCE: Final = 6
 
 @kernel
 def _n_sides(coupling: Record, n_bodies: int) -> int:
-    """Return how many of the two bodies of a coupling move."""
+    """Return the number of a coupling's two bodies that move."""
     return (1 if coupling.socket < n_bodies else 0) + (1 if coupling.shaft < n_bodies else 0)
 
 
@@ -223,7 +223,7 @@ def _coupling_blocks(
     turns: FloatArray,
     blocks: FloatArray,
 ) -> None:
-    """Add what a coupling has to the blocks; ``entries`` begin with its own."""
+    """Add the entries of a coupling to the blocks; ``entries`` begin with its own."""
     sides, n = _n_sides(coupling, n_bodies), coupling.n_terms
     first = 0 if coupling.socket < n_bodies else 1
     for side in range(sides):

@@ -138,7 +138,7 @@ def _contact(joints: SurfaceData, memory: SurfaceMemory, coupling: Record, out: 
 
 @kernel
 def _film(k: int, oil: Any, out: Record) -> None:
-    """Fill what the oil film of a joint does; without one there is nothing."""
+    """Fill the report of a joint's oil film; nothing without one."""
     for i in range(3):
         out.film_force[i] = out.film_moment[i] = 0.0
     out.film_pressure_max = out.film_thickness_min = out.film_leakage = 0.0

@@ -1,4 +1,4 @@
-"""What is observed of a mechanism: of the whole, then of each body, then of each coupling."""
+"""Observed quantities of a mechanism: of the whole, then of each body, then of each coupling."""
 
 from __future__ import annotations
 

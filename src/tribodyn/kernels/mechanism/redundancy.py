@@ -1,4 +1,4 @@
-"""Which constraint rows follow from the others, where there are more than can be independent."""
+"""Constraint rows that follow from the others, where there are more than can be independent."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.solution import set_compliance
 
 PREFERRED: Final = 10.0
-"""How much better than a row that was independent before another must be to take its place."""
+"""Advantage that a row needs to take the place of one that was independent before."""
 
 
 @kernel
@@ -38,7 +38,7 @@ def _product(parts: Parts, now: Now, k: int, m: int, other: int, n: int) -> floa
 
 @kernel
 def _of_couplings(parts: Parts, now: Now, k: int, m: int, other: int, n: int) -> float:
-    """Return what a row of one coupling and a row of another have to do with each other."""
+    """Return the block of a row of one coupling and a row of another."""
     total = 0.0
     a, b = parts.couplings[k], parts.couplings[other]
     for side in range(2):

@@ -35,7 +35,7 @@ from tribodyn.kernels.mechanism.vectors import (
 
 @kernel
 def relative_position(coupling: Record, now: Record, bodies: Any) -> None:
-    """Fill what velocities do not change: displacement, rotation and H."""
+    """Fill the quantities that velocities do not change: displacement, rotation and H."""
     socket, shaft, rho = bodies[coupling.socket], bodies[coupling.shaft], coupling.shaft_point
     if coupling.socket < bodies.size - 1:  # the ground does not turn
         turn_axes_back(coupling.to_socket, socket.A, now.RT)

@@ -82,7 +82,7 @@ def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
 
 @kernel
 def fill_positions(parts: Parts, now: Now, signals: Signals, t: float) -> None:
-    """Fill what velocities do not change: displacements, rotations, and the rows but for their rates."""
+    """Fill the quantities that velocities leave alone: displacements, rotations, rows without their rates."""
     within = min(max(t, now.course.begin), now.course.until)
     for k in range(parts.couplings.size):
         coupling, state = parts.couplings[k], now.couplings[k]

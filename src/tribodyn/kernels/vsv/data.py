@@ -1,4 +1,4 @@
-"""What the kernels of the variable stator vane mechanism read and change."""
+"""Data and memory of the kernels of the variable stator vane mechanism."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ VANE: Final = 1
 CRANK_ANGLE: Final = 2
 VANE_SPEED: Final = 3
 CRANK_SPEED: Final = 4
-"""What loads may follow, in the order of ``kernels/actions.py``: time, θ_v and θ_a, and their rates."""
+"""Variables of loads, in the order of ``kernels/actions.py``: time, θ_v and θ_a, and their rates."""
 
 AIR_X: Final = 0
 AIR_Y: Final = 1
@@ -91,7 +91,7 @@ latter left-handed), and the moment about Z [N m]."""
 
 
 class VsvData(NamedTuple):
-    """What the kernels of the mechanism read.
+    """Constant data of the kernels of the mechanism.
 
     Attributes
     ----------
@@ -141,7 +141,7 @@ alone; ``angles`` are θ_sz and θ_sx with two derivatives, in ``printed``.
 
 
 class VsvMemory(NamedTuple):
-    """What accepted steps change.
+    """History variables, changed at accepted steps.
 
     Attributes
     ----------

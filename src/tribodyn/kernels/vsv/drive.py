@@ -1,4 +1,4 @@
-"""How the crank moves: the sinusoid of the paper's section 5.1, or a signal."""
+"""Motion of the crank: the sinusoid of the paper's section 5.1, or a signal."""
 
 from __future__ import annotations
 

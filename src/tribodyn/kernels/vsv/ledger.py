@@ -1,4 +1,4 @@
-"""What the mechanism enters in its books: powers and forces at an instant, energies, and what has peaks.
+"""Energy ledger of the mechanism: powers and forces at an instant, energies, and quantities with peaks.
 
 Of the two energy ledgers, that of the whole mechanism gets powers. The clearance ledger follows the clearance
 motion alone, q̇ᵀ(N q̈ − Q), with N = Σ m_r δr δrᵀ: forces on the four clearance coordinates, and the momenta
@@ -72,7 +72,7 @@ def clearance_velocity(motion: FloatArray, row: int, y: FloatArray) -> float:
 
 @kernel
 def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
-    """Fill what each contributor does to the whole mechanism [W] from the scratch arrays of this instant."""
+    """Fill the power of each contributor on the whole mechanism [W] from the scratch arrays."""
     scratch = memory.scratch
     motion, collar = scratch.motion, scratch.collar
     omega_v, f_cz = motion[THETA_V, VELOCITY], scratch.f_cz

@@ -1,4 +1,4 @@
-"""Where the trunnion is in its bushing, whose clearance may follow the temperatures of a run."""
+"""Place of the trunnion in its bushing, whose clearance may follow the temperatures of a run."""
 
 from __future__ import annotations
 

@@ -145,7 +145,7 @@ def fill_printed_tests(mechanism: Record, motion: FloatArray, test: FloatArray) 
 
 @kernel
 def add_printed_entries(mechanism: Record, y: FloatArray, scratch: Record) -> None:
-    """Add what A_12, A_42, B_11 and B_41 have beside those sums, and what B_41 lacks of them."""
+    """Add the printed extra terms of A_12, A_42, B_11 and B_41, and subtract the missing ones of B_41."""
     motion, test, mass, load, angles = (
         scratch.motion,
         scratch.test,

@@ -1,4 +1,4 @@
-"""What is observed of the variable stator vane mechanism, in the order in which it is observed."""
+"""Observed quantities of the variable stator vane mechanism, in their order."""
 
 from __future__ import annotations
 

@@ -7,10 +7,10 @@ from functools import partial
 from typing import Final
 
 from tribodyn.core.problem import Problem
-from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.analyses.kinematics import follow_drives, require_motion
 from tribodyn.mechanism.analyses.statics import find_equilibria, require_equilibria
 from tribodyn.mechanism.analyses.vibrations import find_rest, require_freedom
+from tribodyn.mechanism.assembly.assembly import Assembly
 
 NOTES: Final[dict[str, tuple[str, ...]]] = {
     "dynamic": (),

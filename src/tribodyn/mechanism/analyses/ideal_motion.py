@@ -18,9 +18,9 @@ from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
-from tribodyn.mechanism.assembly.passage import closes, lead, placed
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT
 from tribodyn.mechanism.assembly.output_values import Motion, Output, rotations
+from tribodyn.mechanism.assembly.passage import closes, lead, placed
 from tribodyn.mechanism.assembly.positions import DrivePath
 
 _STEP: Final = 1.0e-4

@@ -17,12 +17,12 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
+from tribodyn.mechanism.analyses.superposition import responses
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
-from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.assembly.positions import DrivePath, walked
-from tribodyn.mechanism.analyses.superposition import responses
 
 
 def require_motion(assembly: Assembly) -> None:

@@ -15,12 +15,12 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import MechanismData
+from tribodyn.mechanism.analyses.linearised import LinearEquations
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
-from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.equilibrium import JointLoads
-from tribodyn.mechanism.analyses.linearised import LinearEquations
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.positions import held, undamped
 from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
 

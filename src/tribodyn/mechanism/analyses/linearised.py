@@ -23,10 +23,10 @@ from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
-from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.decompositions import null_space
-from tribodyn.mechanism.assembly.positions import held
 from tribodyn.mechanism.assembly.mechanism_problem import length_scale, mechanism_problem
+from tribodyn.mechanism.assembly.passage import closes, placed
+from tribodyn.mechanism.assembly.positions import held
 
 _ELASTIC: Final = 1.0e30
 """Speed at which contact began that leaves no damping of impacts [m/s]."""

@@ -18,10 +18,10 @@ from tribodyn.cases.functions import OwnFunction
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem
-from tribodyn.mechanisms.base import plain
-from tribodyn.mechanism.elements.controller import Controller
-from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.output_values import Output, motion_of
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.elements.controller import Controller
+from tribodyn.mechanisms.base import plain
 
 _DUE: Final = 1.0e-6
 """Share of a sampling time within which it is now."""

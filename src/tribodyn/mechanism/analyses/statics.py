@@ -20,17 +20,17 @@ from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
-from tribodyn.mechanisms.checks import TOO_CLOSE
-from tribodyn.mechanism.assembly.assembly import Assembly, assemble
-from tribodyn.mechanism.assembly.closing import System
-from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanism.analyses.kinematics import require_motion
 from tribodyn.mechanism.analyses.led_loads import LedLoads, developed
 from tribodyn.mechanism.analyses.linearised import LinearEquations, Linearised
+from tribodyn.mechanism.assembly.assembly import Assembly, assemble
+from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.output_values import rotations
+from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
 from tribodyn.mechanism.assembly.positions import DrivePath, undamped, walked
 from tribodyn.mechanism.assembly.settling import settled
+from tribodyn.mechanisms.checks import TOO_CLOSE
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that counts as zero."""

@@ -20,12 +20,12 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
-from tribodyn.mechanism.assembly.assembly import Assembly
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.analyses.linearised import LinearEquations, Linearised
+from tribodyn.mechanism.analyses.statics import Equilibria, require_no_film
+from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.positions import DrivePath, held, walked
-from tribodyn.mechanism.analyses.statics import Equilibria, require_no_film
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import Observed
 
 _FREE: Final = 1.0e-6

@@ -16,10 +16,10 @@ from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
 from tribodyn.mechanism.assembly.closing import CLOSED, System
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT
-from tribodyn.mechanism.assembly.records import new_memory
 from tribodyn.mechanism.assembly.misfit import Misfit
-from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
 from tribodyn.mechanism.assembly.odd_axes import odd_axes
+from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
+from tribodyn.mechanism.assembly.records import new_memory
 from tribodyn.mechanism.assembly.start_speeds import speeds_of, start
 
 

@@ -19,13 +19,13 @@ from tribodyn.joints.clearances import Clearance, table_of
 from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
 from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
-from tribodyn.mechanisms.bushing import Bearing
-from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.assembly.races import axes_of
 from tribodyn.mechanism.frames import frame
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.pairs import PairKeys
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys
-from tribodyn.mechanism.assembly.races import axes_of
 from tribodyn.mechanism.shapes import SHAPES
+from tribodyn.mechanisms.bushing import Bearing
 
 _Round: TypeAlias = Cylinder | Sphere | Ball
 NOT_WORN: Final[Mapping[str, float]] = {}

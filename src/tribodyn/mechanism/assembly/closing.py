@@ -28,13 +28,13 @@ from tribodyn.kernels.mechanism.solution import (
     set_compliance,
     set_offsets,
 )
-from tribodyn.mechanism.model.drives_and_loads import GIVEN
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT, factors, null_space, svd, with_unit_rows
+from tribodyn.mechanism.assembly.odd_axes import odd_axes
+from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
 from tribodyn.mechanism.assembly.records import mechanism_data, new_memory
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.joints import JOINTS
-from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
-from tribodyn.mechanism.assembly.odd_axes import odd_axes
+from tribodyn.mechanism.model.drives_and_loads import GIVEN
 
 CLOSED: Final = 1.0e-12
 """Residual, in units of the mechanism's size or in radians, of a joint that closes."""

@@ -32,9 +32,9 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
+from tribodyn.mechanism.assembly.clearance_nodes import JointNodes, alike, nodes_of
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.decompositions import row_space
-from tribodyn.mechanism.assembly.clearance_nodes import JointNodes, alike, nodes_of
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
 from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions, forces, of_bodies, products, ways
 from tribodyn.mechanism.assembly.start_speeds import Speeds, start

@@ -9,10 +9,10 @@ import numpy as np
 
 from tribodyn.cases.directions import unit
 from tribodyn.kernels.mechanism import data as kinds
-from tribodyn.mechanisms.actions import Term
-from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, LoadKeys
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, LoadKeys
+from tribodyn.mechanisms.actions import Term
 from tribodyn.mechanisms.loads import parts_of, term
 
 _KINDS: Final = {

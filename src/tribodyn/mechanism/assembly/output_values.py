@@ -25,10 +25,10 @@ from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.frames import GROUND
-from tribodyn.mechanism.model.output_declarations import OutputKeys
 from tribodyn.mechanism.assembly.skeleton import rotated
+from tribodyn.mechanism.frames import GROUND
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.output_declarations import OutputKeys
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

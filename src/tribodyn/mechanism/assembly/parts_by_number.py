@@ -11,11 +11,11 @@ from functools import cached_property
 from itertools import chain
 
 from tribodyn.joints.clearances import Clearance
-from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
 from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.parts import JointKeys
-from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.frames import GROUND, cross
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.parts import JointKeys
 
 _PARALLEL: Final = 1e-3

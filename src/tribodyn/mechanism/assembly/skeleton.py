@@ -15,8 +15,8 @@ from tribodyn.cases.fields import Vector
 from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.frames import GROUND
+from tribodyn.mechanism.mechanism_case import MechanismCase
 
 Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
 """Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3)."""

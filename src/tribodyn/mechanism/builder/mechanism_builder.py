@@ -18,9 +18,9 @@ from tribodyn.cases.units import si_unit
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
 from tribodyn.mechanism.builder.arguments import CASE, signature_of_case
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.builder.docstrings import docstring
 from tribodyn.mechanism.builder.methods import METHODS, OF_JOINT, BuilderMethod
+from tribodyn.mechanism.mechanism_case import MechanismCase
 
 if TYPE_CHECKING:
     from tribodyn.mechanism.builder.signatures import Signatures

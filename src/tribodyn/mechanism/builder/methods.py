@@ -17,11 +17,11 @@ from pydantic import BaseModel
 from tribodyn.cases.case import ParameterKeys
 from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.keys import VALUE
-from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.builder.arguments import Argument, arguments_of, parameters_of
-from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.joints import JOINTS
+from tribodyn.mechanism.model.body import BodyKeys
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.model.output_declarations import OutputKeys
 from tribodyn.mechanism.model.pairs import PairKeys
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys

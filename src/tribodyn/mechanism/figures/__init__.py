@@ -6,11 +6,9 @@ from typing import Final
 
 from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Animation, Family
-from tribodyn.mechanism.results.mechanism_energy import BALANCES
 from tribodyn.mechanism.figures import animation as film
-from tribodyn.mechanism.figures import joints
-from tribodyn.mechanism.figures import mechanism
-from tribodyn.mechanism.figures import solids
+from tribodyn.mechanism.figures import joints, mechanism, solids
+from tribodyn.mechanism.results.mechanism_energy import BALANCES
 from tribodyn.mechanism.sections.charts import CHARTS
 
 FIGURES: Final[dict[str, Family]] = {

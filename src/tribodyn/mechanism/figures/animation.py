@@ -10,9 +10,9 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.figures.style import INK, caption, finish, sheet
+from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.mechanism.figures.mechanism import direction, draw_at, draw_joints, paper
 from tribodyn.mechanism.sections.mechanism import at_times
-from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.views.playback import time_unit
 
 TITLE: Final = "The mechanism in motion"

@@ -13,8 +13,8 @@ from matplotlib.patheffects import withStroke
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import GREY, INK, PALE, SMALL, VERMILION, finish, note, sheet
-from tribodyn.mechanism.sections.mechanism import at_frames
 from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
+from tribodyn.mechanism.sections.mechanism import at_frames
 
 TITLE: Final = "The mechanism in its cycle"
 _NAMED: Final = 16

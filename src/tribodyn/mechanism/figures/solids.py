@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from tribodyn.cases.lists import AXES
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.chart import COLOURS
+from tribodyn.mechanism.assembly.skeleton import Skeleton, view
 from tribodyn.mechanism.figures.animation import moving
 from tribodyn.mechanism.frames import frame
-from tribodyn.mechanism.assembly.skeleton import Skeleton, view
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.gltf import Solid
 

@@ -22,12 +22,11 @@ from tribodyn.cases.fields import (
 from tribodyn.cases.film import FilmKeys
 from tribodyn.cases.joint import SURFACE, FormKeys, LinerKeys
 from tribodyn.cases.temperature import ChangingTemperature
-from tribodyn.mechanism.model.film_rules import check_film
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import foreign_keys, with_own_keys
-from tribodyn.mechanism.shapes import SHAPES
-from tribodyn.mechanism.shapes import shapes_of
+from tribodyn.mechanism.model.film_rules import check_film
+from tribodyn.mechanism.shapes import SHAPES, shapes_of
 
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 _LEAST_ANGLE: Final = 1e-3

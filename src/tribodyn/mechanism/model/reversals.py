@@ -14,9 +14,9 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity
 from tribodyn.core.signals import Signal
+from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys
 from tribodyn.mechanisms.actions import inside
 from tribodyn.mechanisms.checks import of_reversals
-from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys
 from tribodyn.mechanisms.peaks import impact_time, of_rows
 
 PEAKS: Final = (

@@ -19,9 +19,9 @@ from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
+from tribodyn.mechanism.frames import frame
 from tribodyn.mechanisms.bushing import loading
 from tribodyn.mechanisms.checks import instant, named, of_contact, of_damping_pressure, of_load
-from tribodyn.mechanism.frames import frame
 from tribodyn.wear import resampled
 
 _NOTED: Final = 4

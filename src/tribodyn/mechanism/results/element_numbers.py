@@ -8,8 +8,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.mechanism.elements.element import Leg
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.elements.element import Leg
 
 
 def transmitted(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

@@ -11,8 +11,8 @@ from tribodyn.cases.beyond import FollowedTable
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 
 _Z: Final = 2
 OBSERVED: Final = {

@@ -16,9 +16,9 @@ from tribodyn.joints.clearances import Clearance, Place
 from tribodyn.joints.shapes import Surface
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels import dense
-from tribodyn.mechanisms.flash import flash_of, has_conductors
-from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanisms.flash import flash_of, has_conductors
 
 
 def flash_temperatures(

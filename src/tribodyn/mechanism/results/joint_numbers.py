@@ -10,7 +10,6 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.base import ByPart
 from tribodyn.mechanism.results.readings import (
     above_zero,
     least,
@@ -19,6 +18,7 @@ from tribodyn.mechanism.results.readings import (
     of_surfaces,
     offset,
 )
+from tribodyn.mechanisms.base import ByPart
 from tribodyn.results.reading import column, of_part, peak, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_life import wear_life, wear_rate

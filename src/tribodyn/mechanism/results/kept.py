@@ -14,13 +14,9 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Table, names
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_WHOLE, OF_SECOND, WHOLE
-from tribodyn.mechanisms.flash import has_conductors
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.film_variables import film_columns
-from tribodyn.mechanism.results.followed import OBSERVED, followed_by
-from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.output_values import MOTION
-from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import (
     BODIES,
     JOINTS,
@@ -30,6 +26,10 @@ from tribodyn.mechanism.mechanism_variables import (
     of_parts,
     place_of,
 )
+from tribodyn.mechanism.results.film_variables import film_columns
+from tribodyn.mechanism.results.followed import OBSERVED, followed_by
+from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
+from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.output_keys import instants_of
 from tribodyn.mechanisms.playback import EVEN
 

@@ -14,8 +14,8 @@ from tribodyn.core.problem import Problem
 from tribodyn.kernels.film.data import CONVERGED
 from tribodyn.kernels.mechanism.data import INTACT, OPENED, OVERLAPPED, Now
 from tribodyn.lubrication import explain
-from tribodyn.mechanisms.checks import ENERGY_LIMIT, beyond_law, of_steps
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanisms.checks import ENERGY_LIMIT, beyond_law, of_steps
 
 GAP_LIMIT: Final = 1.0e-9
 """Residual of a constraint, in m or rad, below which nobody sees it."""

@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.mechanism.results.mechanism_energy import WHOLE
 from tribodyn.mechanism.results.joint_numbers import OUTSIDE, pair
+from tribodyn.mechanism.results.mechanism_energy import WHOLE
 from tribodyn.mechanism.results.readings import (
     above_zero,
     least,

@@ -9,10 +9,10 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import begun
-from tribodyn.mechanisms.bushing import of_clearances, of_heat
-from tribodyn.mechanisms.checks import named
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.run_keys import ROWS
+from tribodyn.mechanisms.bushing import of_clearances, of_heat
+from tribodyn.mechanisms.checks import named
 
 _FRICTION: Final = "joint.friction_coefficient"
 """Name of the friction of a joint in tables of properties."""

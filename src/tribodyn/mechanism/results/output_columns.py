@@ -9,15 +9,15 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.shapes import Ball, Cylinder, Sphere
-from tribodyn.mechanism.model.drives_and_loads import GIVEN
-from tribodyn.mechanism.assembly.assembly import Assembly
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.followed import coordinate
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
 from tribodyn.mechanism.analyses.kinematics import velocity_ratios
-from tribodyn.mechanism.assembly.parts_by_number import model_of
-from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, superposed
+from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.assembly.output_values import Output
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.drives_and_loads import GIVEN
+from tribodyn.mechanism.results.followed import coordinate
 from tribodyn.mechanisms.output_instants import errors_at
 from tribodyn.mechanisms.output_keys import Instant, instant_coordinates, instants_of
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Place
-from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
-from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.analyses.superposition import superposed
+from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanisms.output_life import shaft_displacements
 
 _LEAD: Final = 120

@@ -13,8 +13,8 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, Place
 from tribodyn.joints.shapes import Sphere
-from tribodyn.mechanism.elements.joint_friction import JointFriction
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.elements.joint_friction import JointFriction
 
 _DEVELOPED: Final = 5.0
 """Sliding speed over the slip velocity from which on friction is developed."""

@@ -11,9 +11,9 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Place
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of, material_of
+from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.wear import loaded_depth
 
 

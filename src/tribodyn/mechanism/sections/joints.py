@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.mechanism.sections.shafts import Shafts
 from tribodyn.mechanism.assembly.skeleton import case_of
+from tribodyn.mechanism.sections.shafts import Shafts
 from tribodyn.views.bushing import Unrolled
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
 from tribodyn.views.encode import packed, stepped

@@ -11,11 +11,11 @@ import xarray as xr
 from tribodyn.cases.directions import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
-from tribodyn.mechanisms.actions import Factors
-from tribodyn.mechanism.model.drives_and_loads import LoadKeys
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.followed import OBSERVED, coordinate, followed_by
 from tribodyn.mechanism.assembly.skeleton import Skeleton, rotated
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.drives_and_loads import LoadKeys
+from tribodyn.mechanism.results.followed import OBSERVED, coordinate, followed_by
+from tribodyn.mechanisms.actions import Factors
 from tribodyn.mechanisms.loads import parts_of
 from tribodyn.views.playback import playback_times
 

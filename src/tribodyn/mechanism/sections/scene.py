@@ -10,14 +10,14 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.frames import frame
-from tribodyn.mechanism.model.parts import JointKeys
 from tribodyn.mechanism.assembly.races import axes_of
+from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
+from tribodyn.mechanism.frames import frame
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.parts import JointKeys
 from tribodyn.mechanism.sections.joints import loaded_joints
 from tribodyn.mechanism.sections.load_arrows import load_arrows
 from tribodyn.mechanism.sections.shafts import Shafts
-from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
 from tribodyn.views.encode import packed
 from tribodyn.views.magnified import magnification
 from tribodyn.views.playback import playback_times

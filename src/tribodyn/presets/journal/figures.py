@@ -15,8 +15,7 @@ from tribodyn.figures import chart, energy
 from tribodyn.figures.base import Family
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, SOLID, finish, lines, sheet
 from tribodyn.presets.journal.energy_balance import BALANCE
-from tribodyn.presets.journal.sections import DEVIATION
-from tribodyn.presets.journal.sections import FORCES
+from tribodyn.presets.journal.sections import DEVIATION, FORCES
 from tribodyn.views.series import peak, series
 
 TITLE: Final = "Journal: path in the clearance circle"

@@ -14,8 +14,8 @@ from tribodyn.kernels.joints.quantities import REPORTED as OF_BUSHING
 from tribodyn.kernels.joints.surface.quantities import REPORTED
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.kept import Layout
 from tribodyn.mechanism.mechanism_variables import Observed
+from tribodyn.mechanism.results.kept import Layout
 from tribodyn.presets.journal.variables import FILM, WATCHED
 
 TURNED: Final = "turned"

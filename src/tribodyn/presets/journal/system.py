@@ -21,6 +21,10 @@ from tribodyn.kernels.joints.quantities import EXTREMES
 from tribodyn.kernels.joints.surface.quantities import N_REPORT, REPORTED
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.kernels.mechanism.functions import observe_surfaces
+from tribodyn.mechanism.assembly.assembly import Assembly, assemble
+from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.results.mechanism_checks import failure
 from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
@@ -32,10 +36,7 @@ from tribodyn.mechanisms.bushing import (
 )
 from tribodyn.mechanisms.checks import instant, of_clearance, of_damping_pressure, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
-from tribodyn.mechanism.assembly.assembly import Assembly, assemble
-from tribodyn.mechanism.results.mechanism_checks import failure
-from tribodyn.mechanism.assembly.parts_by_number import model_of
-from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.checks import warnings
 from tribodyn.presets.journal.energy_balance import balance_columns, residual_fraction
@@ -44,7 +45,6 @@ from tribodyn.presets.journal.model import BEARING, inertia, mechanism_of
 from tribodyn.presets.journal.parameters import Journal, Loads
 from tribodyn.presets.journal.rows import TURNED, layout_of, peaks_of, rebounds_of, rows_of
 from tribodyn.presets.journal.variables import FILM, LOADS, WATCHED
-from tribodyn.mechanisms.wear_state import Worn
 
 SETTLED: Final = 0.01
 """Distance from the static equilibrium, over the clearance, within which a journal has settled."""

@@ -8,10 +8,10 @@ from typing import Final
 
 from tribodyn.kernels.joints.surface.quantities import N_REPORT
 from tribodyn.mechanism.workload import workload as of_mechanism
+from tribodyn.mechanisms.workload import Keys, Workload
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.model import mechanism_of
 from tribodyn.presets.journal.rows import layout_of
-from tribodyn.mechanisms.workload import Keys, Workload
 
 _OF_REBOUND: Final = 35.0
 """Steps of a rebound, measured with ``journal-dry``: 834 steps in 24 rebounds."""

@@ -11,8 +11,8 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.presets.journal.system import journal_of
 from tribodyn.mechanisms.results import read, summarise, write_run
+from tribodyn.presets.journal.system import journal_of
 from tribodyn.results import VARIABLES
 
 SHORT = {"run.duration": "0.4 ms", "run.output_interval": "2 us"}

@@ -52,7 +52,7 @@ def groups_of(block: FloatArray, k: int) -> tuple[int, int]:
 
 @inlined
 def rings_from(surface: Record, r: int) -> int:
-    """Return how many rings of the block that begins at row ``r`` belong to the surface."""
+    """Return the number of rings of the block that begins at row ``r`` that belong to the surface."""
     return min(surface.last_row - r, WIDTH)
 
 

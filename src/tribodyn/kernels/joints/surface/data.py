@@ -1,4 +1,4 @@
-"""What the kernels of surfaces read; it never changes."""
+"""Constant data of the kernels of surfaces."""
 
 from __future__ import annotations
 

@@ -211,7 +211,7 @@ def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> No
 
 @kernel
 def slide(data: SurfaceData, memory: SurfaceMemory, j: int, h: float) -> None:
-    """Add what slides in ``h`` [s], as at the last report, to the sliding load."""
+    """Add the sliding in ``h`` [s], as at the last report, to the sliding load."""
     for s in range(data.joints[j], data.joints[j + 1]):
         over_surface.slide(data, s, memory, h)
 

@@ -1,4 +1,4 @@
-"""What clearance joints remember: where contact began, how they slid, their peaks; and their work."""
+"""History variables of clearance joints: begin of contact, sliding, peaks; and their work arrays."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tribodyn.kernels.joints.surface.tilt import Tilt
 from tribodyn.kernels.lanes import WIDTH
 
 BLOCK_GROUPS: Final = 18 * WIDTH
-"""Where the groups of the block begin."""
+"""Begins of the groups of the block."""
 COLUMNS: Final = 12
 """Lanes of a group."""
 N_SUMS: Final = 90

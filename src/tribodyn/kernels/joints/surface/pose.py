@@ -1,4 +1,4 @@
-"""Where the shaft of a joint is in its socket and how it moves: in the frame of the socket, right-handed.
+"""Pose of a joint's shaft in its socket and its rates: in the frame of the socket, right-handed.
 
 Wrenches are (F_x, F_y, F_z, M_x, M_y, M_z) on the shaft, moments about its origin P. Their derivatives are
 taken with respect to displacement, a small rotation of the shaft, velocity and angular velocity, three of

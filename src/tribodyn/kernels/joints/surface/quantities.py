@@ -1,4 +1,4 @@
-"""What is told about a surface of a clearance joint: its report of an instant, its peaks.
+"""Quantities of a surface of a clearance joint: its report of an instant, its peaks.
 
 On the shaft, in the socket's frame, moments about the shaft's origin.
 """

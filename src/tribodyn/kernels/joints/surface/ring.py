@@ -83,11 +83,11 @@ STRIDE: Final = COLUMNS * WIDTH
 WRENCH: Final = 0.0
 REPORT: Final = 1.0
 DERIVATIVES: Final = 2.0
-"""What the groups are filled for."""
+"""Purpose for which the groups are filled."""
 
 
 class RingMotion(NamedTuple):
-    """What the nodes of a row share, see above."""
+    """Common data of the nodes of a row, see above."""
 
     gap: BentWave
     approach: BentWave
@@ -108,7 +108,7 @@ def _bent_wave_of(block: FloatArray, at: int) -> BentWave:
 
 @inlined
 def motion_of(block: FloatArray, k: int) -> RingMotion:
-    """Return what the motion of the shaft is to the nodes of ring ``k`` of the block."""
+    """Return the motion of the shaft at the nodes of ring ``k`` of the block."""
     return RingMotion(
         _bent_wave_of(block, NEARING + k),
         _bent_wave_of(block, APPROACHING + k),
@@ -152,7 +152,7 @@ def number_of_groups(row: Record) -> int:
 
 @inlined
 def place_of(row: Record, group: int) -> tuple[int, int]:
-    """Return where a group begins in the table of angles and in arrays over all nodes."""
+    """Return the begin of a group in the table of angles and in arrays over all nodes."""
     whole = number_of_groups(row)
     at = WIDTH * (group if group < whole else group - whole)
     return row.angle + at, row.first + min(at, row.count - WIDTH)
@@ -160,7 +160,7 @@ def place_of(row: Record, group: int) -> tuple[int, int]:
 
 @kernel
 def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int, purpose: float) -> int:
-    """Fill what the motion is to the nodes of a block, whose rings are filled; return where groups end.
+    """Fill the motion at the nodes of a block, whose rings are filled; return the ends of groups.
 
     Parameters
     ----------

@@ -61,11 +61,11 @@ NORMAL_RATE: Final = 1 * MATRIX
 FRICTION_PLACE: Final = 2 * MATRIX
 FRICTION_RATE: Final = 3 * MATRIX
 FRICTION_SLIP: Final = 4 * MATRIX
-"""Where the derivatives begin, the last three over μ, the second and the last two with the opposite sign."""
+"""Begins of the derivatives, the last three over μ, the second and the last two with the opposite sign."""
 
 
 class Arms(NamedTuple):
-    """What arms of rings are made of: of a ring without the tilt, β, and the slopes of the axis and rates."""
+    """Parts of the arms of rings: of a ring without the tilt, β, and the slopes of the axis and rates."""
 
     arm: Any
     bent: Any

@@ -163,7 +163,7 @@ def _put_terms(surface: Record, sums: Terms, out: Record) -> None:
 
 @inlined
 def first_kept(surface: Record) -> int:
-    """Return where a surface keeps what slides: each row has room for a last group that repeats nodes."""
+    """Return the place of a surface's sliding loads: rows have room for a last group that repeats nodes."""
     return surface.first_node + (WIDTH - 1) * surface.first_row
 
 

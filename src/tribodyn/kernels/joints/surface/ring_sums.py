@@ -12,7 +12,7 @@ from tribodyn.kernels.lanes import load, spread, total, zeros
 
 
 class Ring(NamedTuple):
-    """What the nodes of a ring share: area of a node [m²], n_r, n_z, radius, height and arm [m]."""
+    """Common data of the nodes of a ring: area of a node [m²], n_r, n_z, radius, height and arm [m]."""
 
     area: Any
     n_r: Any

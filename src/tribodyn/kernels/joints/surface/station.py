@@ -1,4 +1,4 @@
-"""Where on its axis the shaft is looked at, and what that does to forces and derivatives.
+"""Station on the axis of the shaft, and its effect on forces and derivatives.
 
 A shaft that slides through its socket meets it with ever other parts of itself, while nodes stay with the
 socket. So on a surface that slides, motion is taken at Q, where the axis of the shaft crosses the plane z = 0
@@ -133,7 +133,7 @@ def derivatives_at_origin(scratch: Record, pose: Record) -> None:
 
 @kernel
 def _add_turning_back(scratch: Record) -> None:
-    """Add what the transposes of T and U change by, with the wrenches at Q held fixed."""
+    """Add the changes of the transposes of T and U, with the wrenches at Q held fixed."""
     u, z, force, pull = scratch.station.axis, scratch.station.height, scratch.normal, scratch.friction
     normal, friction = scratch.normal_place, scratch.friction_place
     normal[2, 4] -= force[0]

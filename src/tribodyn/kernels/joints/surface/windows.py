@@ -1,4 +1,4 @@
-"""Which nodes of a ring can be in contact: four rings at a time."""
+"""Nodes of a ring that can be in contact: four rings at a time."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from tribodyn.kernels.joints.surface.nodes import gather, rewind
 from tribodyn.kernels.lanes import WIDTH, load, total, zeros
 
 LEAST_SQUARE: Final = 1.0e-300
-"""What stands for a squared slip velocity of zero."""
+"""Least squared slip velocity, in the place of zero."""
 
 
 @inlined
