@@ -8,7 +8,7 @@ DOCS := docs/_build/html
 # Every script that draws for the manual; those that are left out draw what is kept, on demand.
 PLOTS := $(filter-out docs/plots/demo.py docs/plots/mechanism.py docs/plots/moving.py docs/plots/tour.py,$(wildcard docs/plots/*.py))
 DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
-PROGRAM := $(shell find src -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
+PROGRAM := $(shell find src packages -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
 # One more than there are cores: many tests wait for processes that they watch.
 # With bytecode kept, which containers often switch off: hundreds of processes import the package.
 PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -n 3 --dist worksteal
@@ -102,8 +102,8 @@ bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
 
 lock:
-	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --extra all pyproject.toml -o requirements.lock
-	uv pip compile --generate-hashes --universal --no-header --python-version 3.11 -c requirements.lock pyproject.toml -o tools/container.lock
+	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --extra all --no-emit-package mebdf pyproject.toml -o requirements.lock
+	uv pip compile --generate-hashes --universal --no-header --python-version 3.11 -c requirements.lock --no-emit-package mebdf pyproject.toml -o tools/container.lock
 
 clean:
 	rm -rf $(VENV) docs/_build docs/reference/generated docs/validation/sets docs/_static/generated .mypy_cache .ruff_cache .pytest_cache .import_linter_cache
@@ -114,11 +114,11 @@ $(BIN)/python:
 	@tools/make-venv $(VENV)
 
 $(VENV)/.run: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable .
 	@touch $@
 
 $(VENV)/.dev: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,docs]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable ".[sundials,surfaces,dev,docs]"
 	@touch $@ $(VENV)/.run
 
 # What tests need. Kernels are compiled on one core while pip, on the other, installs what only tests need.
@@ -130,9 +130,9 @@ kernels: $(VENV)/.run
 	@tools/compile-kernels $(BIN)/python
 
 $(VENV)/.bench: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,dev,bench]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable ".[sundials,surfaces,dev,bench]"
 	@touch $@ $(VENV)/.dev $(VENV)/.run
 
 $(VENV)/.docs: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sundials,surfaces,docs]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable ".[sundials,surfaces,docs]"
 	@touch $@ $(VENV)/.run

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from tribodyn.workbench.kept_runs import MOST_CASES
-from tribodyn.workbench.server_state import Rules
+from tribodyn.workbench.server_state import MOST_CASES, Rules
 
 KEY: Final = "joint.clearance"
 PER_SECOND: Final = 50

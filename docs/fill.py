@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Final
 
 DOCS: Final = Path(__file__).parent
-PAGES: Final = (DOCS.parent / "README.md", DOCS.parent / "src" / "mebdf" / "README.md", *DOCS.rglob("*.md"))
+PAGES: Final = (DOCS.parent / "README.md", DOCS.parent / "packages/mebdf/README.md", *DOCS.rglob("*.md"))
 TABLE: Final = re.compile(r"(<!-- table: ([^>]+?) -->\n).*?(<!-- end -->)", re.DOTALL)
 NUMBER: Final = re.compile(r"(<!--= ([^>]+?) -->)(.*?)(<!--/-->)")
 _DIGITS: Final = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")

@@ -21,7 +21,7 @@ from math import comb
 from pathlib import Path
 
 MAX_K = 7
-TARGET = Path(__file__).parents[1] / "src" / "mebdf" / "kernels" / "coefficients.py"
+TARGET = Path(__file__).parents[1] / "packages" / "mebdf" / "src" / "mebdf" / "kernels" / "coefficients.py"
 
 
 def harmonic(k: int) -> Fraction:

@@ -14,7 +14,7 @@ from typing import Final
 import matplotlib.pyplot as plt
 
 import tribodyn as td
-from tribodyn.mechanism.library import GALLERY, Template
+from tribodyn.mechanism.descriptor import GALLERY, Template
 from tribodyn.mechanisms.results import known, summarise
 from tribodyn.views.numbers import in_words
 

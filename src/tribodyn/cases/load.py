@@ -342,7 +342,7 @@ def _tables(text: str, source: str) -> dict[str, Any]:
 
 
 def _hint(line: str) -> str:
-    """Return what a line that is no TOML lacks, quotes or a decimal point; empty for anything else."""
+    """Return the missing part of a line that is no TOML, quotes or a decimal point; empty otherwise."""
     match = _BARE.fullmatch(line[:_LONGEST_LINE])
     if match is not None:
         return _with_quotes(*match.groups())

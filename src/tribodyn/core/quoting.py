@@ -13,7 +13,7 @@ LONGEST: Final = 80
 """Characters of a given text that a message repeats at most."""
 GREY: Final = "\x1b[2m"
 PLAIN: Final = "\x1b[0m"
-"""What makes a terminal write in grey, and as before."""
+"""Escapes that make a terminal write in grey, and as before."""
 
 
 def brief(text: object, most: int = LONGEST) -> str:

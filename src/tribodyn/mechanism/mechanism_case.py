@@ -170,7 +170,7 @@ class MechanismCase(_WithElements):
         )
 
     def _surfaces_of_joints(self) -> dict[str, str]:
-        """Return what keys of the surfaces of each joint with clearance begin with, by its name."""
+        """Return the prefix of the surfaces' keys of each joint with clearance, by its name."""
         real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
         return {name: "" if keys.pair is None else f"{_PAIRS}.{keys.pair}." for name, keys in real.items()}
 

@@ -19,7 +19,6 @@ from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
 from tribodyn.mechanism.analyses.analysis import NOTES, analysed
-from tribodyn.mechanism.analyses.following import following
 from tribodyn.mechanism.analyses.ideal_motion import compared
 from tribodyn.mechanism.analyses.sampling import sampled
 from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, without_friction
@@ -45,28 +44,43 @@ from tribodyn.mechanism.mechanism_variables import (
 from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.element_numbers import transmitted
-from tribodyn.mechanism.results.film_variables import film_coordinates, film_maps, film_peaks
-from tribodyn.mechanism.results.followed import followed
+from tribodyn.mechanism.results.followed import followed, transmitted
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
-from tribodyn.mechanism.results.kept import Layout, columns, frames, layout_of, not_kept, note
+from tribodyn.mechanism.results.kept import (
+    Layout,
+    columns,
+    film_coordinates,
+    film_maps,
+    film_peaks,
+    following,
+    frames,
+    layout_of,
+    not_kept,
+    note,
+)
 from tribodyn.mechanism.results.maps import Maps
-from tribodyn.mechanism.results.mechanism_energy import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.openings import (
+    depth_of,
     from_time,
+    least_roughness,
     of_temperatures,
     openings,
     opens,
     radial_clearances,
+    worn_model,
 )
-from tribodyn.mechanism.results.output_columns import instant_errors, kinematic_columns, output_coordinates
-from tribodyn.mechanism.results.output_lives import error_growth
+from tribodyn.mechanism.results.output_columns import (
+    error_growth,
+    instant_errors,
+    kinematic_columns,
+    output_coordinates,
+)
+from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.slow_sliding import of_slow_sliding
-from tribodyn.mechanism.results.worn import depth_of, least_roughness, worn_model
 from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.output_keys import error_share, limits_of
-from tribodyn.mechanisms.output_life import lives
+from tribodyn.mechanisms.output_numbers import lives
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.results.attributes import CARRIED, NOT_KEPT

@@ -12,15 +12,57 @@ from typing import Any, Final
 import xarray as xr
 
 from tribodyn.core import toml
-from tribodyn.mechanisms.results import all_there, known, summarise
-from tribodyn.report.beside import chapter_of
+from tribodyn.mechanisms.results import all_there, known, mechanism_of, read, summarise
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
+from tribodyn.report.parallel import ParallelAxis, ParallelPoint
 from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.atomic import write_text
+from tribodyn.results.store import POINTS, RESULT
 from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common
 from tribodyn.views.numbers import in_words
+from tribodyn.views.overlay import overlays
+from tribodyn.views.section import Chapter
+
+MOST: Final = 6
+"""Points up to which their curves can be distinguished."""
+LEAD: Final = "Press the name of a run below a plot to hide or show it."
+
+
+def curves_over_each_other(
+    axes: Sequence[ParallelAxis], points: Sequence[ParallelPoint], folder: Path | None
+) -> list[Chapter]:
+    """Return the chapter with the curves of all points; none of many, or where results were not kept."""
+    if folder is None or not 2 <= len(points) <= MOST:
+        return []
+    runs = {
+        _name(axes, number): read(folder / POINTS / point.name)
+        for number, point in enumerate(points)
+        if _kept(folder, point)
+    }
+    return [chapter_of(runs)] if len(runs) > 1 else []
+
+
+def chapter_of(runs: dict[str, xr.Dataset]) -> Chapter:
+    """Return the chapter with the curves of runs, by their names."""
+    planned = {
+        overlay.name: overlay for dataset in runs.values() for overlay in mechanism_of(dataset).overlays
+    }
+    return Chapter("curves", "Curves over each other", LEAD, overlays(list(planned.values()), runs))
+
+
+def _kept(folder: Path, point: ParallelPoint) -> bool:
+    """Tell whether the whole result of a point is there; a name or a link could lead elsewhere."""
+    place = folder / POINTS / point.name
+    inside = Path(point.name).name == point.name and not place.is_symlink()
+    return inside and (place / RESULT).is_file()
+
+
+def _name(axes: Sequence[ParallelAxis], number: int) -> str:
+    """Return the changes that lead to a point."""
+    return ", ".join(f"{axis.label}: {axis.texts[number]}" for axis in axes if axis.parameter)
+
 
 OF_RUN: Final = ("Wear", "Loss", "Trust", "Effort")
 """Groups of key results that are of each whole run; all others are of the stretch that the runs share."""

@@ -9,7 +9,7 @@ from typing import Any
 import xarray as xr
 
 from tribodyn.mechanisms.results import key_numbers_of
-from tribodyn.report.beside import curves_over_each_other
+from tribodyn.report.comparison import curves_over_each_other
 from tribodyn.report.content import chapters, reading, variables
 from tribodyn.report.figures import figures_of
 from tribodyn.report.page import page

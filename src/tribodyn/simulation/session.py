@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import xarray as xr
 
+from tribodyn.core.digests import digest
+from tribodyn.core.problem import Problem, Solution
 from tribodyn.core.stopping import Stop, skipped
 from tribodyn.core.versions import provenance
 from tribodyn.integrate import INTERRUPTED, integrate
@@ -14,7 +17,7 @@ from tribodyn.mechanisms.base import FinishedRun, MechanismDescriptor, ResultPar
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
 from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
-from tribodyn.simulation import hashes
+from tribodyn.simulation import session as hashes
 
 Progress = Callable[[float], None] | None
 """Called with the simulated time [s] after every accepted step."""
@@ -84,3 +87,22 @@ class Session:
                 "notes": [*said.notes, *part.notes, *more.notes],
             },
         )
+
+
+def of_data(problem: Problem, *more: Any) -> str:
+    """Return the hash of all that a run reads: constants, tables, start, times and tolerances.
+
+    Parameters
+    ----------
+    problem
+        Before it is integrated.
+    more
+        What the integrator is given besides: numbers, texts and arrays.
+    """
+    bounds = problem.t_span, problem.breakpoints, problem.longest_step
+    return digest(problem.data, problem.y0, problem.atol, *bounds, *more)
+
+
+def of_rows(solution: Solution) -> str:
+    """Return the hash of the rows at output times, and of the state at the end."""
+    return digest(solution.t, solution.rows, solution.t_end, solution.y_end)

@@ -8,7 +8,7 @@ from typing import Final
 
 ROOT: Final = Path(__file__).parents[3]
 DOCS: Final = ROOT / "docs"
-SOLVER: Final = ROOT / "src" / "mebdf" / "README.md"
+SOLVER: Final = ROOT / "packages" / "mebdf" / "README.md"
 REMOVED: Final = (
     re.compile(r"<!-- table: .*?<!-- end -->", re.DOTALL),
     re.compile(r"<!--= .*?<!--/-->"),

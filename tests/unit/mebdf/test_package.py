@@ -12,7 +12,8 @@ import mebdf
 import tribodyn.integrate
 
 ROOT = Path(__file__).parents[3]
-README = Path(mebdf.__file__).with_name("README.md")
+PACKAGE = ROOT / "packages" / "mebdf"
+README = PACKAGE / "README.md"
 ALONE = """
 import sys
 
@@ -48,11 +49,20 @@ def test_the_import_is_cheap() -> None:
 
 
 def test_every_package_of_the_source_is_in_the_wheel() -> None:
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    packages = project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
-    there = [path.parent for path in (ROOT / "src").glob("*/__init__.py")]
-    assert sorted(packages) == sorted(str(path.relative_to(ROOT)) for path in there)
-    assert all((path / "py.typed").is_file() for path in there)
+    for root in (ROOT, PACKAGE):
+        project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+        packages = project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
+        there = [path.parent for path in (root / "src").glob("*/__init__.py")]
+        assert packages == [str(path.relative_to(root)) for path in there]
+        assert all((path / "py.typed").is_file() for path in there)
+
+
+def test_tribodyn_needs_this_version() -> None:
+    whole, solver = (
+        tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        for root in (ROOT, PACKAGE)
+    )
+    assert f"mebdf=={solver['version']}" in whole["dependencies"]
 
 
 def test_tribodyn_has_the_same_class() -> None:

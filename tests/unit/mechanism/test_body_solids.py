@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.mechanism.body_solids import body_solid
+from tribodyn.mechanism.model.body import body_solid
 from tribodyn.mechanism.sections import mechanism
 
 STEEL = 7850.0

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.mechanism.library import GALLERY, TEMPLATES
+from tribodyn.mechanism.descriptor import GALLERY, TEMPLATES
 from tribodyn.mechanisms.results import known, summarise
 
 

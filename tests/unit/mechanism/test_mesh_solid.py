@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.mechanism.model.mesh_solid import mesh_solid
+from tribodyn.mechanism.model.solids import mesh_solid
 
 SIZES = np.array([0.03, 0.02, 0.01])
 PLACE = np.array([0.5, -0.2, 0.1])

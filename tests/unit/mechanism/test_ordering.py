@@ -8,8 +8,7 @@ from tests.unit.mechanism.drawings import chain, joint, mechanism, rod, with_spr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.blocks import INVERT_DEFINITE, factorise, solve
-from tribodyn.mechanism.assembly.block_patterns import n_blocks
-from tribodyn.mechanism.assembly.ordering import Rows, elimination_order, make_pattern
+from tribodyn.mechanism.assembly.ordering import Rows, elimination_order, make_pattern, n_blocks
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.records import mechanism_data
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.output_life import lives, shaft_displacements
+from tribodyn.mechanisms.output_numbers import lives, shaft_displacements
 
 ANGLE = np.linspace(-np.pi, np.pi, 97)[:-1]
 NORMAL = np.tile(np.column_stack([np.cos(ANGLE), np.sin(ANGLE), 0.0 * ANGLE]), (2, 1))

@@ -7,7 +7,7 @@ import pytest
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise
 from tribodyn.report import write
-from tribodyn.report.bands import FOLDER, bands
+from tribodyn.report.page import FOLDER, bands
 from tribodyn.results import netcdf_content
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.merge import merge

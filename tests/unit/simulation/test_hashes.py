@@ -14,7 +14,8 @@ from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.problem import CompiledFunctions, Problem, Solution
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.summary import summarise
-from tribodyn.simulation import hashes, simulate
+from tribodyn.simulation import session as hashes
+from tribodyn.simulation import simulate
 
 NOTHING: Any = None
 COUPLING = np.dtype([("law", "i8"), ("stiffness", "f8", (2,))])

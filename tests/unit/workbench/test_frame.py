@@ -8,7 +8,7 @@ from tests.unit.workbench.host import unframed
 
 from tribodyn.views.encode import packed
 from tribodyn.workbench import frame
-from tribodyn.workbench.kept_runs import MOST_CASES, KeptRuns
+from tribodyn.workbench.server_state import MOST_CASES, KeptRuns
 
 
 def test_arrays_stand_where_the_header_says_at_multiples_of_eight():

@@ -32,11 +32,19 @@ from tribodyn.kernels.mechanism.data import (
 )
 from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
-from tribodyn.mechanism.assembly.clearance_nodes import JointNodes, alike, nodes_of
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.decompositions import row_space
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
-from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions, forces, of_bodies, products, ways
+from tribodyn.mechanism.assembly.shaft_motions import (
+    JointNodes,
+    ShaftMotions,
+    alike,
+    forces,
+    nodes_of,
+    of_bodies,
+    products,
+    ways,
+)
 from tribodyn.mechanism.assembly.start_speeds import Speeds, start
 
 _MOVING: Final = 1.0e-6
@@ -159,7 +167,7 @@ class JointLoads:
         return found
 
     def survey(self) -> None:
-        """Find what forces do not show of the stiffness along all motions, by looking from either side."""
+        """Find the stiffness along all motions that forces do not show, by looking from either side."""
         self.look()
         kept, motions, basis = self.state.copy(), self.motions, np.linalg.solve(self.root, self.motions)
         found = np.zeros(self.missing.shape)
@@ -359,7 +367,7 @@ class JointLoads:
         return over_roughness, over_gap
 
     def turned(self, step: FloatArray) -> float:
-        """Return how far a step (m,) moves bodies along freedoms, turns [rad] and lengths over the size."""
+        """Return the length of a step (m,) along freedoms, turns [rad] and lengths over the size."""
         if self.carried == 0:
             return 0.0
         moved = dense.product(self.motions[:, -self.carried :], step[-self.carried :])

@@ -17,7 +17,7 @@ from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
-from tribodyn.mechanism.assembly.block_patterns import n_blocks
+from tribodyn.mechanism.assembly.ordering import n_blocks
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.records import mechanism_data, new_memory
 from tribodyn.mechanism.mechanism_case import MechanismCase

@@ -20,7 +20,7 @@ from tribodyn.core.errors import IntegrationFailure, Stopped
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.integrate.binding import kernel_types, machine_code
-from tribodyn.integrate.kept import Kept
+from tribodyn.integrate.driver import Kept
 from tribodyn.kernels.actions import TIME
 from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
 from tribodyn.mechanisms.signals import backward, constant

@@ -27,8 +27,8 @@ from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.kernels.mechanism.law import address_of
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
-from tribodyn.mechanism.assembly.block_patterns import n_blocks, number_entries, patterns
 from tribodyn.mechanism.assembly.load_terms import fill_load
+from tribodyn.mechanism.assembly.ordering import n_blocks, number_entries, patterns
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.races import axes_of
 from tribodyn.mechanism.elements.element import ForceLaw, Leg

@@ -8,7 +8,7 @@ from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Animation, Family
 from tribodyn.mechanism.figures import animation as film
 from tribodyn.mechanism.figures import joints, mechanism, solids
-from tribodyn.mechanism.results.mechanism_energy import BALANCES
+from tribodyn.mechanism.results.readings import BALANCES
 from tribodyn.mechanism.sections.charts import CHARTS
 
 FIGURES: Final[dict[str, Family]] = {

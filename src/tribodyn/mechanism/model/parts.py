@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING, Final, Self
+from typing import TYPE_CHECKING, Any, Final, Self
 
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.directions import dot, unit
@@ -25,8 +25,29 @@ from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import foreign_keys, with_own_keys
-from tribodyn.mechanism.model.film_rules import check_film
 from tribodyn.mechanism.shapes import SHAPES, shapes_of
+
+
+def check_film(joint: Any) -> None:
+    """Refuse an oil film that the kernels of the film do not describe; the keys are those of its joint.
+
+    Raises
+    ------
+    InputError
+        If the joint is not a pin that turns in a round bore.
+    """
+    key, clearance = "film.viscosity", joint.clearance
+    words = "an oil film is in the bore of a pin: a clearance with radius, radial and length is needed"
+    demand(clearance is not None and SHAPES[joint.shape].BORE, key, words)
+    words = f"an oil film is that of a revolute joint; in a {joint.type} one oil would also resist sliding"
+    demand("position" not in joint.kind.COORDINATES, key, words)
+    words = "an oil film is as long as its bore: leave pin_length out"
+    demand(clearance.pin_length is None, "clearance.pin_length", words)
+    words = "an oil film is between round surfaces: leave form or film out"
+    demand(clearance.form == FormKeys(), "clearance.form", words)
+    words = "an oil film has one viscosity and one clearance: give constant temperatures"
+    demand(not clearance.temperature.tables, "clearance.temperature.over_time", words)
+
 
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 _LEAST_ANGLE: Final = 1e-3

@@ -21,7 +21,7 @@ from tribodyn.mechanism.results.readings import (
 from tribodyn.mechanisms.base import ByPart
 from tribodyn.results.reading import column, of_part, peak, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
-from tribodyn.results.wear_life import wear_life, wear_rate
+from tribodyn.results.wear_numbers import wear_life, wear_rate
 
 
 def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.problem import Floats, Following
 from tribodyn.core.quantities import Table, names
+from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_WHOLE, OF_SECOND, WHOLE
 from tribodyn.mechanism.assembly.output_values import MOTION
 from tribodyn.mechanism.assembly.parts_by_number import Model
@@ -26,12 +28,73 @@ from tribodyn.mechanism.mechanism_variables import (
     of_parts,
     place_of,
 )
-from tribodyn.mechanism.results.film_variables import film_columns
 from tribodyn.mechanism.results.followed import OBSERVED, followed_by
 from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.output_keys import instants_of
 from tribodyn.mechanisms.playback import EVEN
+
+
+def film_columns(couplings: Mapping[str, FloatArray], model: Model) -> dict[str, FloatArray]:
+    """Return the observed quantities of films, each of shape (n_t, n_joints) or (n_t, n_joints, 3)."""
+    found = {}
+    for name in OIL if model.oiled else ():
+        if name not in couplings:
+            continue
+        found[name] = np.full_like(couplings[name][:, : len(model.joints)], np.nan)
+        found[name][:, model.oiled] = couplings[name][:, model.oiled]
+    return found
+
+
+def film_peaks(oil: Any, model: Model) -> dict[str, FloatArray]:
+    """Return the largest or least values of each film at any step, each of shape (n_joints,).
+
+    ``oil`` are the records of ``kernels/joints/film.py``.
+    """
+    found = {}
+    for name in oil.dtype["peaks"].names if model.oiled else ():
+        found[name] = np.full(len(model.joints), np.nan)
+        found[name][model.oiled] = np.where(np.isfinite(oil["peaks"][name]), oil["peaks"][name], np.nan)
+    return found
+
+
+def film_coordinates(films: FilmData, model: Model) -> dict[str, ArrayLike]:
+    """Return names of the joints with a film and places of its nodes; nothing without films."""
+    if not model.oiled:
+        return {}
+    return {
+        "film": [model.joints[number] for number in model.oiled],
+        "film_angle": np.sort(_angles(films.wear_node.shape[1])),
+        "film_row": np.arange(films.wear_node.shape[2], dtype=np.float64),
+        "film_place": np.array(films.z_node),
+    }
+
+
+def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
+    """Return pressure fields of films by name, nothing without films.
+
+    Of a film with a groove the field is zero: its nodes turn with the groove.
+
+    Parameters
+    ----------
+    films
+        What kernels read of all films.
+    pictures
+        Fields over the nodes of all films [Pa], shape (n_frames, n_nodes).
+    """
+    n, n_theta, n_z = films.wear_node.shape
+    if not films.constants.size:
+        return {}
+    order = np.argsort(_angles(n_theta))
+    maps = pictures.reshape(-1, n, n_z, n_theta).transpose(0, 1, 3, 2)[:, :, order]
+    maps[:, films.constants["groove"] == 1] = 0.0
+    return {"film_pressure_cycle": maps}
+
+
+def _angles(n_theta: int) -> FloatArray:
+    """Return the angles of a film's nodes [rad]: opposite to the push of their pressure on the shaft."""
+    return np.asarray(np.mod(2.0 * np.pi * np.arange(n_theta) / n_theta + np.pi, 2.0 * np.pi))
+
 
 OF_LARGE: Final = (
     *("position", "orientation", "velocity", "acceleration"),
@@ -203,3 +266,30 @@ def _opposed(case: MechanismCase) -> Iterator[str]:
     for table in case.followed():
         if table.over in ("speeds", "velocities") and not table.follows:
             yield OBSERVED[table.over]
+
+
+def following(model: Model, period: float, times: FloatArray) -> Following | None:
+    """Return the intervals in which rows follow the steps: shafts may strike faster than output times see.
+
+    Parameters
+    ----------
+    model
+        The mechanism.
+    period
+        Time of one cycle [s].
+    times
+        Of the other rows, from 0 to the end [s], shape (n_t,).
+    """
+    most, n_bodies, duration = model.case.run.step_rows, len(model.bodies), float(times[-1])
+    if not model.clearances or most == 0:
+        return None
+    driven = [model.joints.index(drive.joint) for drive in model.case.drives.values()]
+    watched = (
+        *(columns_of("reaction_force", k, n_bodies) for k in range(len(model.joints))),
+        *(columns_of("pressure_max", k, n_bodies) for k in model.real),
+        *(columns_of("film_pressure_max", k, n_bodies) for k in model.oiled),
+        *(columns_of(f"drive_{name}", k, n_bodies) for k in driven for name in ("moment", "force")),
+    )
+    n = min(max(round(duration / period), 1), times.size)
+    edges = np.linspace(0.0, duration, n + 1)
+    return Following(np.column_stack([edges[:-1], edges[1:]]), max(most, 2 * len(watched) + 1), watched)

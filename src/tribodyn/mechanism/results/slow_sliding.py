@@ -1,4 +1,4 @@
-"""Where a dynamic run slides so slowly that its friction is not developed.
+"""Share of a dynamic run that slides so slowly that its friction is not developed.
 
 Friction of joints is regularised: at the slip velocity it has 71 % of its size, at five times that 98 %.
 """

@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanism.results.mechanism_energy import WHOLE
-from tribodyn.mechanism.results.readings import offset, sizes
+from tribodyn.mechanism.results.readings import WHOLE, offset, sizes
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.energy_balance import balance_chart

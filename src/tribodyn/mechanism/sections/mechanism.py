@@ -9,8 +9,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
-from tribodyn.mechanism.body_solids import body_solid
-from tribodyn.mechanism.model.body import BodyKeys
+from tribodyn.mechanism.model.body import BodyKeys, body_solid
 from tribodyn.mechanism.sections.scene import clearances, forces, magnified
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.encode import packed

@@ -182,7 +182,7 @@ class JournalCase(BushingCase):
         return followed(drives | loads, self.duration, follows=follows)
 
     def remarks(self) -> Remarks:
-        """Return what is to be said of the two surfaces and of tables."""
+        """Return remarks on the two surfaces and on tables."""
         return super().remarks() + of_choice(self, ("",))
 
     def idle(self) -> tuple[str, ...]:

@@ -43,8 +43,16 @@ from tribodyn.presets.journal.energy_balance import balance_columns, residual_fr
 from tribodyn.presets.journal.equilibrium import Equilibrium, equilibrium
 from tribodyn.presets.journal.model import BEARING, inertia, mechanism_of
 from tribodyn.presets.journal.parameters import Journal, Loads
-from tribodyn.presets.journal.rows import TURNED, layout_of, peaks_of, rebounds_of, rows_of
-from tribodyn.presets.journal.variables import FILM, LOADS, WATCHED
+from tribodyn.presets.journal.rows import (
+    FILM,
+    LOADS,
+    TURNED,
+    WATCHED,
+    layout_of,
+    peaks_of,
+    rebounds_of,
+    rows_of,
+)
 
 SETTLED: Final = 0.01
 """Distance from the static equilibrium, over the clearance, within which a journal has settled."""

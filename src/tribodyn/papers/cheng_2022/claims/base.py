@@ -64,7 +64,7 @@ MANY_RUNS: Final = ("solver",)
 
 
 EARLY: Final = "the run ends early"
-"""What is said where a run left the range of the contact law."""
+"""Text for a run that left the range of the contact law."""
 
 
 class EndedEarly(Exception):

@@ -23,7 +23,7 @@ from tribodyn.papers.cheng_2022.claims.bounds import Bound, Verdict, of_span
 from tribodyn.papers.cheng_2022.runs import JOINTS
 
 Number: TypeAlias = float | tuple[float, float] | None
-"""What a claim measures: a number, two where the paper does not say which is meant, none without a run."""
+"""Measure of a claim: a number, two where the paper does not say which is meant, none without a run."""
 Level: TypeAlias = Mapping[str, Mapping[str, object]]
 """Changes of built-in cases, by their names."""
 

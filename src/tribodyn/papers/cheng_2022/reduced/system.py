@@ -34,7 +34,7 @@ from tribodyn.mechanisms.bushing import (
 from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
 from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, limits_of
-from tribodyn.mechanisms.output_life import lives, shaft_displacements
+from tribodyn.mechanisms.output_numbers import lives, shaft_displacements
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn

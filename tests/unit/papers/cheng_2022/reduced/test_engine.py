@@ -9,7 +9,7 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.cases.tables import keys_in
 from tribodyn.mechanisms.results import summarise
-from tribodyn.papers.cheng_2022.reduced.engine import ENGINE
+from tribodyn.papers.cheng_2022.reduced.descriptor import ENGINE
 
 PAPERS_LOADS = {
     "loads.air_force_x": "0.4 N",
