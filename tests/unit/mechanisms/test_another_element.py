@@ -153,7 +153,7 @@ def run(place: Path, script: str) -> None:
 
 def run_with(place: Path, folder: str, title: str, first: str, script: str) -> None:
     """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
-    package = copy_of_package(place) / "mechanisms" / "general" / folder
+    package = copy_of_package(place) / "mechanism" / folder
     module = title.lower().replace(" ", "_")
     (package / f"{module}.py").write_text(of_manual(f'"""{title}'), encoding="utf-8")
     insert(package / "__init__.py", first, f'    "{module}",\n')
@@ -195,14 +195,14 @@ def test_a_command_takes_one_file_and_one_name(tmp_path: Path) -> None:
 
 
 def test_a_chart_of_the_manual_takes_one_file(tmp_path: Path) -> None:
-    charts = copy_of_package(tmp_path) / "mechanisms" / "general" / "sections" / "charts.py"
+    charts = copy_of_package(tmp_path) / "mechanism" / "sections" / "charts.py"
     insert(charts, "CHARTS: Final = (", of_manual("def heights"))
     insert(charts, "MOTION)\n", "HEIGHTS, ")
     run(tmp_path, CHART)
 
 
 def test_a_model_of_the_manual_takes_one_file(tmp_path: Path) -> None:
-    folder = copy_of_package(tmp_path) / "mechanisms" / "general" / "built_in"
+    folder = copy_of_package(tmp_path) / "mechanism" / "built_in"
     model = of_manual("# A uniform rod", "toml")
     (folder / "swinging-rod.toml").write_text(model, encoding="utf-8")
     run(tmp_path, MODEL)

@@ -56,6 +56,8 @@ def _sliding(
     model: Model, places: Sequence[Place], rows: Mapping[str, FloatArray]
 ) -> Iterator[tuple[str, float, FloatArray]]:
     """Yield joints with friction, their slip velocity and their sliding speed [m/s], shape (n_t,)."""
+    if not {"relative_rate", "relative_velocity", "reaction_force"} <= rows.keys():
+        return  # a large model that does not keep them
     spins, velocities = rows["relative_rate"], rows["relative_velocity"]
     for k, (name, clearance) in enumerate(model.clearances.items()):
         if clearance.friction_coefficient > 0.0 and clearance.film is None:
