@@ -24,7 +24,7 @@ WORDS: dict[str, str] = tomllib.loads(Path(__file__).with_name("words.toml").rea
 MESSAGES = ROOT / "tests" / "golden" / "messages.txt"
 SOURCES = (".py", ".pyi", ".js", ".css", ".html")
 LEFT = {
-    "equations.py": ["books -> energy balance"] * 3,
+    "records.py": ["books -> energy balance"] * 3,
     "output_numbers.py": ["lasting -> sustained maximum"],
     "problem.py": ["ledger -> energy balance", "books -> energy balance"],
 }

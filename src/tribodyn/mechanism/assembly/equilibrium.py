@@ -7,6 +7,8 @@ and the motions B that clearances alone allow,
 
 solved by Newton's method over B. Traction and loads against the motion are those of the motion that is there,
 or, at rest, of the last one or of the one that is about to begin.
+
+One file because all steps of the search change the same displaced bodies.
 """
 
 from __future__ import annotations
