@@ -32,6 +32,8 @@ _DASHES: Final = (style.SOLID, style.DASHED, style.DOTTED, style.DASHDOT)
 _MARKERS: Final = "os^Dv"
 _MOST_PANELS: Final = 6
 _MOST_BINS: Final = 100
+_ROUNDING: Final = 1e-12
+"""Range of values over the largest of them up to which rounding alone parts them."""
 _WIDE_RANGE: Final = 50.0
 """Largest over smallest value of a parameter above which its axis is logarithmic."""
 _MOST_WRITTEN: Final = 60
@@ -330,7 +332,10 @@ def _bins(values: FloatArray) -> int:
     """Return the number of bins by the rules of Sturges or of Freedman and Diaconis, whichever gives more.
 
     NumPy's ``auto`` is the same without a bound: one value far from all others makes it ask for any number.
+    It refuses more than one where values differ by rounding alone.
     """
+    if np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
+        return 1
     quarter, most = np.percentile(values, [25.0, 75.0])
     width = 2.0 * (most - quarter) / np.cbrt(values.size)
     fine = float(np.ptp(values)) / width if width > 0.0 else 0.0

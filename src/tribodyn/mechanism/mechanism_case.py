@@ -417,6 +417,11 @@ class MechanismCase(_WithElements):
             tables.setdefault(table, {})[name] = change(keys)
         return self.model_copy(update=tables)
 
+    @property
+    def has_drives(self) -> bool:
+        """Whether anything drives a joint: a drive, a motor or a controller."""
+        return bool(self.drives) or any(keys.IS_DRIVE for _, _, keys in self.elements())
+
     def elements(self) -> Iterator[tuple[str, str, ElementKeys]]:
         """Yield table, name and keys of all elements."""
         for kind in ELEMENTS:

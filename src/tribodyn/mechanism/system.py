@@ -44,6 +44,7 @@ from tribodyn.mechanism.mechanism_variables import (
 from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results.contacts import Contacts
+from tribodyn.mechanism.results.drive_power import power_columns, with_motors
 from tribodyn.mechanism.results.followed import followed, transmitted
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
@@ -306,6 +307,7 @@ class MechanismSystem:
             columns={
                 **columns(self.model, found),
                 **transmitted(self.model, found.couplings),
+                **power_columns(self.model, found.couplings),
                 **radial_clearances(self.model, run.solution.t),
                 **of_outputs,
                 **vibrations.columns,
@@ -387,7 +389,7 @@ class MechanismSystem:
         return {"start": "equilibrium" if self.start() is not None else "centred"}
 
     def _observed(self, run: FinishedRun) -> Observed:
-        return self._layout.observed(run.solution.rows)
+        return with_motors(self.model, self._layout.observed(run.solution.rows))
 
     @cached_property
     def _layout(self) -> Layout:

@@ -29,7 +29,7 @@ Never widen them.
 """,
     NUMBERS: """quantity,measured,half_width,accepted,null,source,explanation
 force_mean_N_wrist,1460,20,10 %,,example: mean force of the case slider-crank,
-power_mean_W,226,5,,,example without a band: reported only,
+drive_power_mean_W,226,5,,,example without a band: reported only,
 """,
 }
 """Files of a new set, by name."""

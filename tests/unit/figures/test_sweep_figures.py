@@ -74,3 +74,10 @@ def test_lines_stand_over_the_shown_unit() -> None:
     assert "µm" in axes.get_xlabel()
     assert axes.lines[0].get_xdata().tolist() == pytest.approx([20, 25, 30, 35, 40])
     assert [line.get_label() for line in axes.lines] == ["exact", "paper"]
+
+
+def test_samples_that_rounding_alone_parts_are_drawn() -> None:
+    dataset = made_up("samples")
+    dataset["contact_force_max_N"][:] = 100.0
+    dataset["contact_force_max_N"][0] = np.nextafter(100.0, 101.0)
+    figures_of(dataset)["contact_force_max_N"].draw(dataset)

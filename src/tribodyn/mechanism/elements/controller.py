@@ -50,6 +50,7 @@ class Controller(OfJointKeys):
     FORCE: ClassVar[str] = "force on the second body along the axis; none for a torque"
     MOMENT: ClassVar[str] = "torque on the second body about the axis; none for a force"
     LAW: ClassVar = held
+    IS_DRIVE: ClassVar[bool] = True
     EXAMPLE: ClassVar[str] = (
         ARM
         + """[controllers.servo]

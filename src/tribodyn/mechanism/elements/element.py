@@ -163,6 +163,8 @@ class ElementKeys(NamedGroup):
         Force law, see :class:`ForceLaw`; None for a constraint.
     IS_SPRING
         Whether its outline is drawn as a coil.
+    IS_DRIVE
+        Whether it gives the moment or force of its joint as a drive does.
     """
 
     TABLE: ClassVar[str]
@@ -173,6 +175,7 @@ class ElementKeys(NamedGroup):
     EXAMPLE: ClassVar[str]
     LAW: ClassVar[Callable[[Any, Any], None] | None] = None
     IS_SPRING: ClassVar[bool] = False
+    IS_DRIVE: ClassVar[bool] = False
 
     @property
     def named_joints(self) -> dict[str, tuple[str, ...]]:

@@ -38,6 +38,7 @@ class Motor(OfJointKeys):
     FORCE: ClassVar[str] = "force on the second body along the axis; none for a torque"
     MOMENT: ClassVar[str] = "torque on the second body about the axis; none for a force"
     LAW: ClassVar = of_speed
+    IS_DRIVE: ClassVar[bool] = True
     EXAMPLE: ClassVar[str] = (
         ARM
         + """[motors.dc]

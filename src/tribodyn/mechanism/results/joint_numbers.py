@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Final
 
+import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
@@ -19,7 +20,7 @@ from tribodyn.mechanism.results.readings import (
     offset,
 )
 from tribodyn.mechanisms.base import ByPart
-from tribodyn.results.reading import column, of_part, peak, settled, sustained, time_mean
+from tribodyn.results.reading import column, of_part, peak, rms, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import wear_life, wear_rate
 
@@ -52,6 +53,72 @@ OUTSIDE: Final[dict[str, ByPart]] = {
     "drive_moment_outside_Nm": _outside("Drive moment", "N m", "drive_moment"),
 }
 """Numbers of mechanisms whose drives reverse, by name."""
+
+
+def _driven(label: str, unit: str, meaning: str, reduce: Callable[[xr.Dataset, slice], float]) -> ByPart:
+    """Return a number of the drives of some joints: of all, and of each where several are driven."""
+
+    def value(dataset: xr.Dataset, joint: str) -> float:
+        if not joint:
+            return reduce(dataset, slice(None))
+        several = np.count_nonzero(column(dataset, "drive_power").any(axis=0)) > 1
+        k = of_joint(dataset, joint)
+        return reduce(dataset, slice(k, k + 1)) if several else math.nan
+
+    def made(joint: str) -> KeyResult:
+        number = KeyResult(label, unit, "Drive", meaning, lambda d: value(d, joint))
+        return number.of_part(joint) if joint else number
+
+    return made
+
+
+def _rms(effort: str, dataset: xr.Dataset, joints: slice) -> float:
+    return above_zero(max(rms(dataset, values) for values in column(dataset, effort)[:, joints].T))
+
+
+def _peak(quantity: str, dataset: xr.Dataset, joints: slice) -> float:
+    return above_zero(peak(settled(dataset, column(dataset, quantity)[:, joints])))
+
+
+def _rate_at_peak(effort: str, rate: str, dataset: xr.Dataset, joints: slice) -> float:
+    size = np.abs(settled(dataset, column(dataset, effort)[:, joints]))
+    where = np.unravel_index(np.argmax(size), size.shape)
+    return abs(settled(dataset, column(dataset, rate)[:, joints, 2])[where]) if size[where] else math.nan
+
+
+DRIVEN: Final[dict[str, ByPart]] = {
+    "drive_power_rms_W": _driven(
+        "Power of the drives, rms",
+        "W",
+        "Root mean square over the run.",
+        lambda d, joints: above_zero(rms(d, column(d, "drive_power")[:, joints].sum(axis=1))),
+    ),
+    "drive_moment_rms_Nm": _driven(
+        "Drive moment, rms",
+        "N m",
+        "Root mean square over the run, which warms a motor.",
+        partial(_rms, "drive_moment"),
+    ),
+    "drive_speed_at_peak_rad_per_s": _driven(
+        "Speed at the peak of the drive moment",
+        "rad/s",
+        "With the largest moment, a point that the curve of a motor must hold.",
+        partial(_rate_at_peak, "drive_moment", "relative_rate"),
+    ),
+    "drive_force_rms_N": _driven(
+        "Drive force, rms",
+        "N",
+        "Root mean square over the run, which warms an actuator.",
+        partial(_rms, "drive_force"),
+    ),
+    "drive_velocity_at_peak_m_per_s": _driven(
+        "Velocity at the peak of the drive force",
+        "m/s",
+        "With the largest force, a point that the curve of an actuator must hold.",
+        partial(_rate_at_peak, "drive_force", "relative_velocity"),
+    ),
+}
+"""Numbers for the size of motors and actuators, by name."""
 
 
 def pair(
@@ -136,6 +203,17 @@ def _pair_named(
 
 BY_JOINT: Final[dict[str, ByPart]] = {
     **OUTSIDE,
+    **DRIVEN,
+    **{
+        name: _driven(
+            f"{label}, peak", unit, "Largest value at any step of the integration.", partial(_peak, quantity)
+        )
+        for name, label, unit, quantity in (
+            ("drive_power_max_W", "Power of the drive", "W", "drive_power"),
+            ("drive_moment_max_Nm", "Drive moment", "N m", "drive_moment"),
+            ("drive_force_max_N", "Drive force", "N", "drive_force"),
+        )
+    },
     **_pair_named(
         ("force_lasting_N", "force_max_N"),
         "Force",

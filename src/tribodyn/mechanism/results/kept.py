@@ -28,6 +28,7 @@ from tribodyn.mechanism.mechanism_variables import (
     of_parts,
     place_of,
 )
+from tribodyn.mechanism.results.drive_power import INPUTS
 from tribodyn.mechanism.results.followed import OBSERVED, followed_by
 from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.flash import has_conductors
@@ -234,7 +235,7 @@ def layout_of(case: MechanismCase) -> Layout:
     if not not_kept(case):
         return Layout(*counts, BODY, COUPLING, COUPLING)
     chosen = {*kept(case)} - {*(() if _has_films(case) else OIL)}
-    others = {*_opposed(case), *(_OF_LEGS if n_legs else ())}
+    others = {*_opposed(case), *(_OF_LEGS if n_legs else ()), *(["joint_work"] if case.loads else [])}
     joints = chosen | {*_read_of_joints(case)} | others
     return Layout(
         *counts,
@@ -251,6 +252,7 @@ def _of(table: Table, chosen: set[str]) -> Table:
 def _read_of_joints(case: MechanismCase) -> Iterator[str]:
     """Yield quantities that are computed from joints after a run, whatever its result holds."""
     yield from _ALWAYS
+    yield from INPUTS if case.has_drives else ()
     real = [joint.real for joint in case.joints.values() if joint.real is not None]
     yield from _OF_CLEARANCES if real else ()
     yield from _OF_FLASH if any(has_conductors(case.of_pair(keys).surfaces) for keys in real) else ()

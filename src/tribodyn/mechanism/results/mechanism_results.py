@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanism.results.joint_numbers import OUTSIDE, pair
+from tribodyn.mechanism.results.joint_numbers import DRIVEN, OUTSIDE, pair
 from tribodyn.mechanism.results.readings import (
     WHOLE,
     above_zero,
@@ -49,15 +49,24 @@ def _scatter(dataset: xr.Dataset) -> float:
     return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
 
 
+def _mean_rate(dataset: xr.Dataset, energy: FloatArray) -> float:
+    """Return the mean power [W] over the run from an energy since its start."""
+    time = column(dataset, "time")
+    return float((energy[-1] - energy[0]) / (time[-1] - time[0])) if time[-1] > time[0] else math.nan
+
+
 def _power(dataset: xr.Dataset) -> float:
-    """Return the mean power put in [W]: the rate of stored energy and heat by the energy balance.
+    """Return the mean power of the drives [W]: stored energy and heat by the energy balance, without loads.
 
     The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
     """
-    time = column(dataset, "time")
-    gains = np.sum([column(dataset, name) for name in WHOLE.gained if name in dataset.variables], axis=0)
-    works = np.ptp(column(dataset, "energy_in")) > _ROUNDING * np.ptp(column(dataset, "energy_kinetic"))
-    return float((gains[-1] - gains[0]) / (time[-1] - time[0])) if works else math.nan
+    if not column(dataset, "drive_power").any():
+        return math.nan
+    gained, others = (
+        sum(column(dataset, name) for name in names if name in dataset.variables)
+        for names in (WHOLE.gained, ("energy_loads", "energy_expansion"))
+    )
+    return _mean_rate(dataset, np.asarray(gained - others))
 
 
 KEY_RESULTS: Final[dict[str, KeyResult]] = {
@@ -120,9 +129,29 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "Largest force of an actuator",
         lambda d: column(d, "drive_force"),
     ),
-    "power_mean_W": KeyResult(
-        "Power put in, mean", "W", "Drive", "Mean power of drives and loads over the run.", _power
+    **pair(
+        ("drive_power_lasting_W", "drive_power_max_W"),
+        "Power of the drives",
+        "W",
+        "Drive",
+        "Power of all drives, motors and controllers together",
+        lambda d: column(d, "drive_power").sum(axis=1),
     ),
+    "drive_power_mean_W": KeyResult(
+        "Power of the drives, mean",
+        "W",
+        "Drive",
+        "Mean power of all drives, motors and controllers over the run; below zero where they brake.",
+        _power,
+    ),
+    "load_power_mean_W": KeyResult(
+        "Power of the loads, mean",
+        "W",
+        "Drive",
+        "Mean power of all loads over the run; below zero where they take what drives give.",
+        lambda d: _mean_rate(d, column(d, "energy_loads")),
+    ),
+    **{name: made("") for name, made in DRIVEN.items()},
     "offset_max_um": KeyResult(
         "Offset in a joint, largest",
         "µm",
