@@ -80,10 +80,12 @@ def _peak(quantity: str, dataset: xr.Dataset, joints: slice) -> float:
     return above_zero(peak(settled(dataset, column(dataset, quantity)[:, joints])))
 
 
-def _rate_at_peak(effort: str, rate: str, dataset: xr.Dataset, joints: slice) -> float:
-    size = np.abs(settled(dataset, column(dataset, effort)[:, joints]))
-    where = np.unravel_index(np.argmax(size), size.shape)
-    return abs(settled(dataset, column(dataset, rate)[:, joints, 2])[where]) if size[where] else math.nan
+def _rate_at_peak(effort: str, other: str, dataset: xr.Dataset, joints: slice) -> float:
+    values = settled(dataset, column(dataset, effort)[:, joints])
+    where = np.unravel_index(np.argmax(np.abs(values)), values.shape)
+    power = settled(dataset, column(dataset, "drive_power")[:, joints])[where]
+    both = settled(dataset, column(dataset, other)[:, joints])[where]
+    return math.nan if both or not values[where] else float(abs(power / values[where]))
 
 
 DRIVEN: Final[dict[str, ByPart]] = {
@@ -103,7 +105,7 @@ DRIVEN: Final[dict[str, ByPart]] = {
         "Speed at the peak of the drive moment",
         "rad/s",
         "With the largest moment, a point that the curve of a motor must hold.",
-        partial(_rate_at_peak, "drive_moment", "relative_rate"),
+        partial(_rate_at_peak, "drive_moment", "drive_force"),
     ),
     "drive_force_rms_N": _driven(
         "Drive force, rms",
@@ -115,7 +117,7 @@ DRIVEN: Final[dict[str, ByPart]] = {
         "Velocity at the peak of the drive force",
         "m/s",
         "With the largest force, a point that the curve of an actuator must hold.",
-        partial(_rate_at_peak, "drive_force", "relative_velocity"),
+        partial(_rate_at_peak, "drive_force", "drive_moment"),
     ),
 }
 """Numbers for the size of motors and actuators, by name."""
