@@ -283,7 +283,8 @@ class MechanismCase(_WithElements):
     def output_interval(self) -> float:
         """Time between rows [s]."""
         longest = min(self.span, self.period or self.span)
-        if self.run.analysis in ("static", "vibrations"):
+        chosen = self.run.analysis == "kinematic" and self.given("run.positions") is not None
+        if chosen or self.run.analysis in ("static", "vibrations"):
             return longest / self.run.positions
         return self.run.output_interval or longest / ROWS
 

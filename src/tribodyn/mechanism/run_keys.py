@@ -52,7 +52,11 @@ class RunKeys(Group):
         example="0.1 ms",
     )
     positions: int = count(
-        120, "positions of a static or vibration analysis in a cycle", ASSUMED, ge=2, le=1_000_000
+        120,
+        "positions of a static or vibration analysis in a cycle; of a kinematic one where it is given",
+        ASSUMED,
+        ge=2,
+        le=1_000_000,
     )
     modes: int = count(
         12,

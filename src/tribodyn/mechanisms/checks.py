@@ -229,9 +229,9 @@ def of_clearance(touch: Touch) -> str:
     if not (touch.over_surface and touch.clearance < ROUGH_LIMIT * touch.roughness):
         return ""
     return (
-        f"The radial clearance of {1e6 * touch.clearance:.3g} um is {touch.clearance / touch.roughness:.2g} "
-        f"times the combined roughness: below {ROUGH_LIMIT:g} the surfaces touch all around, wherever the "
-        "shaft is. Give a larger clearance or smoother surfaces."
+        f"This is a press fit: the radial clearance of {1e6 * touch.clearance:.3g} um is "
+        f"{touch.clearance / touch.roughness:.2g} times the combined roughness, and below {ROUGH_LIMIT:g} "
+        "the surfaces touch all around. Give a larger clearance or smoother surfaces."
     )
 
 

@@ -120,14 +120,11 @@ class Pid(Loop):
         self._last = error
         share = 0.0 if keys.integral_time is None else step / keys.integral_time
 
-        def value(total: float) -> float:
-            return self._gain * (error + share * total + keys.derivative_time / step * change)
-
-        found = value(self._sum + error)
+        total = self._sum + error
+        found = self._gain * (error + share * total + keys.derivative_time / step * change)
         if found == self.limited(found) or found * self._gain * error <= 0.0:
-            self._sum += error
-            return self.limited(found)
-        return self.limited(value(self._sum))
+            self._sum = total
+        return self.limited(found)
 
 
 class Function(Loop):

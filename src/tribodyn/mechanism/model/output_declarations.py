@@ -48,7 +48,7 @@ class OutputKeys(ErrorKeys):
 
     quantity: Literal["position", "distance", "angle", "velocity", "angular_velocity"] = choice(
         "position",
-        "position or velocity of a point, distance of two points, angle or angular velocity of a body",
+        "position or velocity of a point, distance of two points, angle of a body or the rate of this angle",
         "assumed",
     )
     at: JointInstants = JointInstants()
