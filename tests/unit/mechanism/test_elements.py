@@ -27,8 +27,11 @@ from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.assembly.skeleton import skeleton
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.elements import ELEMENTS
+from tribodyn.mechanism.elements.distance import Distance
 from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.elements.gear import Gear
+from tribodyn.mechanism.elements.rack import Rack
+from tribodyn.mechanism.elements.screw import Screw
 from tribodyn.mechanism.elements.stop import one_sided
 from tribodyn.mechanism.figures.mechanism import draw
 from tribodyn.mechanism.mechanism_case import MechanismCase
@@ -63,7 +66,11 @@ def without_drive(text: str) -> str:
 
 def floating(kind: type[ElementKeys]) -> MechanismCase:
     """Return the example of a kind with a free body in the place of the ground, and weights."""
-    text = kind.EXAMPLE.replace('"ground"', '"base"').replace("[joints]", f"{BASE}\n[joints]")
+    text = (
+        re.sub("gravity = .*", "", kind.EXAMPLE)
+        .replace('"ground"', '"base"')
+        .replace("[joints]", f"{BASE}\n[joints]")
+    )
     return parsed(text.replace("[bodies]", 'gravity = "3, -9, 2 m/s^2"\n[bodies]'))
 
 
@@ -132,7 +139,7 @@ def test_reactions_on_all_bodies_have_no_resultant(kind: type[ElementKeys]) -> N
     assert moment == pytest.approx(np.zeros(3), abs=1e-14 * size)
 
 
-@pytest.mark.parametrize("kind", ELEMENTS[:2], ids=lambda kind: kind.METHOD)
+@pytest.mark.parametrize("kind", [Gear, Rack], ids=lambda kind: kind.METHOD)
 def test_teeth_load_the_wheels_and_not_the_body_that_carries_them(kind: type[ElementKeys]) -> None:
     system = System(assembled(kind).model)
     loads = row_of(system)[:-1]
@@ -264,9 +271,11 @@ def test_any_order_of_bodies_in_joints_is_the_same_mechanism(kind: type[ElementK
     found = td.simulate(parsed(swapped.replace('"0.2 N m"', '"-0.2 N m"')))
     for name in ("position", "velocity", "angular_velocity", "element_force", "element_moment"):
         # Mass centres at rest move by rounding.
-        largest = max(float(abs(expected[name]).max()), 1e-6)
-        assert found[name].values == pytest.approx(expected[name].values, abs=1e-9 * largest), name
-    assert float(abs(expected["element_force"]).min()) > 0.0
+        largest = max(1e-6, float(abs(expected[name]).max()))
+        both = found[name].values, expected[name].values
+        assert both[0] == pytest.approx(both[1], abs=1e-9 * largest, nan_ok=True), name
+    # An element gives a force, a torque or both.
+    assert np.fmax(abs(expected["element_force"]), abs(expected["element_moment"])).min() > 0.0
 
 
 @pytest.mark.parametrize("kind", [k for k in ELEMENTS if k not in COUPLING], ids=lambda kind: kind.METHOD)
@@ -276,8 +285,7 @@ def test_a_misdescribed_member_is_refused_with_the_reason(kind: type[ElementKeys
             found = re.sub(rf"(\n{key} = .*?\")\w+", rf"\1{fields}", kind.EXAMPLE, count=1)
             with pytest.raises(InputError, match=rf"{kind.TABLE}\.\w+\.{key}: .* \"nowhere\" is no "):
                 parsed(found)
-    wrong = WRONG[kind.METHOD]
-    for old, new, key, reason in wrong:
+    for old, new, key, reason in WRONG.get(kind.METHOD, ()):
         assert old in kind.EXAMPLE
         with pytest.raises(InputError, match=rf"{kind.TABLE}\.\w+\.{key}: .*{reason}"):
             parsed(without_drive(kind.EXAMPLE).replace(old, new))
@@ -345,7 +353,7 @@ def test_unknown_joints_and_values_of_zero_are_refused_with_the_reason(kind: typ
         zero = re.sub(
             rf'\n{key} = "?[-0-9.]+', lambda found: re.sub(r"[-0-9.]+$", "0", found[0]), kind.EXAMPLE
         )
-        with pytest.raises(InputError, match=rf"{kind.TABLE}\.\w+\.{key}: .* is 0; "):
+        with pytest.raises(InputError, match=rf"{kind.TABLE}\.\w+\.{key}: .*( is 0; |> 0)"):
             parsed(zero)
 
 
@@ -368,13 +376,13 @@ def test_an_element_is_one_class_with_its_own_names() -> None:
 
 
 def test_two_elements_need_two_names() -> None:
-    text = ELEMENTS[0].EXAMPLE + '[racks.mesh]\njoints = ["input", "output"]\nradius = "20 mm"\n'
+    text = Gear.EXAMPLE + '[racks.mesh]\njoints = ["input", "output"]\nradius = "20 mm"\n'
     with pytest.raises(InputError, match="has this name already"):
         parsed(text)
 
 
 def test_a_state_that_is_carried_on_keeps_the_equation_after_any_number_of_turns() -> None:
-    kind = ELEMENTS[0]
+    kind = Gear
     assembly = assemble(model_of(parsed(kind.EXAMPLE)))
     state, bodies = assembly.state.copy(), System(assembly.model).now.bodies
     place(state, bodies)
@@ -390,7 +398,7 @@ def test_a_state_that_is_carried_on_keeps_the_equation_after_any_number_of_turns
     assert state == pytest.approx(before, abs=1e-12)
 
 
-@pytest.mark.parametrize(("kind", "lines"), list(zip(ELEMENTS, (2, 2, 0, 1), strict=False)))
+@pytest.mark.parametrize(("kind", "lines"), [(Gear, 2), (Rack, 2), (Screw, 0), (Distance, 1)])
 def test_figure_and_report_show_pitch_circles_and_rods(kind: type[ElementKeys], lines: int) -> None:
     result = td.simulate(parsed(kind.EXAMPLE))
     shown = mechanism.data(result)
@@ -400,7 +408,7 @@ def test_figure_and_report_show_pitch_circles_and_rods(kind: type[ElementKeys], 
 
 
 def test_pitch_circles_touch_and_the_pitch_line_is_a_tangent() -> None:
-    ((_, first),), ((_, second),) = skeleton(parsed(ELEMENTS[0].EXAMPLE)).outlines
+    ((_, first),), ((_, second),) = skeleton(parsed(Gear.EXAMPLE)).outlines
     centres = [0.5 * (circle[0] + circle[24]) for circle in (first, second)]
     radii = [
         np.linalg.norm(circle - centre, axis=1)
@@ -410,13 +418,13 @@ def test_pitch_circles_touch_and_the_pitch_line_is_a_tangent() -> None:
     assert radii[0][0] + radii[1][0] == pytest.approx(
         float(np.linalg.norm(centres[1] - centres[0])), rel=1e-9
     )
-    ((_, pinion),), ((_, line),) = skeleton(parsed(ELEMENTS[1].EXAMPLE)).outlines
+    ((_, pinion),), ((_, line),) = skeleton(parsed(Rack.EXAMPLE)).outlines
     centre, radius = 0.5 * (pinion[0] + pinion[24]), 0.5 * np.linalg.norm(pinion[24] - pinion[0])
     along = (line[1] - line[0]) / np.linalg.norm(line[1] - line[0])
     assert np.linalg.norm(np.cross(along, line[0] - centre)) == pytest.approx(radius, rel=1e-9)
 
 
 def test_the_line_of_a_body_at_rest_is_that_of_the_drawing() -> None:
-    drawn, points = skeleton(parsed(ELEMENTS[0].EXAMPLE)), np.eye(3)
+    drawn, points = skeleton(parsed(Gear.EXAMPLE)), np.eye(3)
     still = drawn.moved(points, -1, np.zeros((4, 3)), np.zeros((4, 4)))
     assert still == pytest.approx(np.tile(1e3 * points, (4, 1, 1)))

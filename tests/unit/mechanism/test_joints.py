@@ -5,6 +5,7 @@ Two free bodies are joined, the ground takes no part, so that reactions on both 
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -18,14 +19,14 @@ from tribodyn.joints.clearances import pose_at
 from tribodyn.kernels.joints.surface.joint import wrench
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.kernels.mechanism.bodies import move
-from tribodyn.kernels.mechanism.data import N_STATES, TURNING, VELOCITY
+from tribodyn.kernels.mechanism.data import DIRECTION, N_STATES, TURNING, VELOCITY
 from tribodyn.mechanism.assembly.assembly import assemble
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
 from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.joints import JOINTS
-from tribodyn.mechanism.joints.joint_type import ALIGNED
+from tribodyn.mechanism.joints.joint_type import ALIGNED, AT_POINT, NO_TURN
 from tribodyn.mechanism.shapes import SHAPES, shapes_of
 
 OVER_ALL = pytest.mark.parametrize("kind", JOINTS)
@@ -52,6 +53,41 @@ def disturbed(kind: str) -> System:
     system.now.bodies.v[:-1], system.now.bodies.w[:-1] = chance.normal(size=(2, system.n, 3))
     system.refresh()
     return system
+
+
+def require_sound(kind: str) -> None:
+    """Refuse equations that are open as drawn or depend on each other, and coordinates that they hold."""
+    system, about = System(model_of(drawn(kind).case())), JOINTS[kind]
+    assert system.entries("residual") == pytest.approx(np.zeros(len(about.ROWS)), abs=1e-12)
+    matrix = system.matrix().reshape(len(about.ROWS), 6 * system.n)
+    assert not about.ROWS or np.linalg.matrix_rank(matrix) == len(about.ROWS)
+    axis, arm = np.array([0.0, 0.0, 1.0]), system.now.bodies.r[1]
+    free = {"angle": [*np.cross(axis, arm), *axis], "position": [*axis, 0.0, 0.0, 0.0]}
+    for coordinate in about.COORDINATES:
+        moved = matrix @ np.concatenate([np.zeros(6), free[coordinate]])
+        assert moved == pytest.approx(np.zeros(len(about.ROWS)), abs=1e-12)
+
+
+@OVER_ALL
+def test_constraint_equations_are_independent_and_leave_the_coordinates_free(kind: str) -> None:
+    require_sound(kind)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"ROWS": (*AT_POINT, AT_POINT[0], *ALIGNED)},  # one equation twice
+        {"ROWS": (*AT_POINT, *ALIGNED, (DIRECTION, 2, 0))},  # one that follows from the others
+        {"ROWS": (*AT_POINT, *ALIGNED, NO_TURN)},  # the angle is held
+        {"COORDINATES": ("angle", "position")},  # the position is held
+        {"ROWS": (*AT_POINT, (DIRECTION, 2, 2))},  # parallel axes are not at right angles
+    ],
+)
+def test_a_wrong_joint_is_found(wrong: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in wrong.items():
+        monkeypatch.setattr(type(JOINTS["revolute"]), name, value)
+    with pytest.raises(AssertionError):
+        require_sound("revolute")
 
 
 @pytest.mark.parametrize("kind", CONSTRAINTS)
@@ -185,16 +221,18 @@ PLAYS += [(kind, "cylinder", FACES) for kind, about in JOINTS.items() if about.F
 def test_a_clearance_holds_what_its_ideal_counterpart_holds(
     kind: str, shape: str, more: dict[str, str]
 ) -> None:
-    """Beyond the play the surfaces push back along what the ideal joint holds, and nowhere else."""
+    """Beyond the play the surfaces push back along what the ideal joint holds, else nowhere."""
     model = model_of(drawn(kind, shape=shape, **SHAPES[shape].EXAMPLE, **more).case())
     clearance = model.clearances["link"]
     ideal, data = JOINTS[model.counterpart.kind("link")], surfaces([clearance])
-    play = SHAPES[shape].room(clearance.shape)
-    for axis in range(3):
+    play, keys = SHAPES[shape].room(clearance.shape), model.case.joints["link"].real
+    assert keys is not None
+    assert play[0] == pytest.approx(keys.radial, rel=1e-12)
+    for axis, share in itertools.product(range(3), (0.25, 2.0)):
         out, way = np.zeros(6), np.zeros(3)
-        way[axis] = 2.0 * (play[1] if axis == 2 else play[0])
+        way[axis] = share * (play[1] if axis == 2 else play[0])
         wrench(data, new_memory(data), 0, pose_at(way), out)
-        if axis in ideal.held:
+        if axis in ideal.held and share > 1.0:
             assert out[axis] < -1.0
         else:
             assert not out.any()

@@ -15,6 +15,8 @@ import tribodyn
 
 SOURCE = Path(tribodyn.__file__).parent
 PAGE = Path(__file__).parents[3] / "CONTRIBUTING.md"
+OVER_JOINTS = "tests/unit/mechanism/test_joints.py"
+"""Tests over the lists of types of joints and of shapes of their clearances."""
 RUN = """
 import numpy as np, tribodyn as td
 from tribodyn.cases.load import parse
@@ -151,27 +153,41 @@ def run(place: Path, script: str) -> None:
     assert done.returncode == 0, done.stderr
 
 
-def run_with(place: Path, folder: str, title: str, first: str, script: str) -> None:
+def failures(place: Path, *tests: str) -> str:
+    """Run tests with the copy of the package in a folder; return what pytest says, empty if all pass."""
+    environment = os.environ | {"PYTHONPATH": str(place)}
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *tests]
+    done = subprocess.run(command, cwd=PAGE.parent, env=environment, capture_output=True, text=True)
+    return done.stdout + done.stderr if done.returncode else ""
+
+
+def run_with(place: Path, folder: str, title: str, first: str, script: str) -> Path:
     """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
     package = copy_of_package(place) / "mechanism" / folder
     module = title.lower().replace(" ", "_")
     (package / f"{module}.py").write_text(of_manual(f'"""{title}'), encoding="utf-8")
     insert(package / "__init__.py", first, f'    "{module}",\n')
     run(place, script)
+    return package / f"{module}.py"
 
 
 @pytest.mark.parametrize(("title", "check"), [("Belt", BELT), ("Stokes", STOKES)])
 def test_an_element_of_the_manual_takes_one_file_and_one_line(tmp_path: Path, title: str, check: str) -> None:
     script = RUN.format(method=title.lower(), check=check)
     run_with(tmp_path, "elements", title, '    "gear",\n', script)
+    assert not failures(tmp_path, "tests/unit/mechanism/test_elements.py")
 
 
 def test_a_joint_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
     run_with(tmp_path, "joints", "Ball on plane", '    "ideal",\n', JOINT)
+    assert not failures(tmp_path, OVER_JOINTS)
 
 
 def test_a_shape_of_a_clearance_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
-    run_with(tmp_path, "shapes", "Oval bore", '    "mesh",\n', SHAPE)
+    added = run_with(tmp_path, "shapes", "Oval bore", '    "mesh",\n', SHAPE)
+    assert not failures(tmp_path, OVER_JOINTS)
+    insert(added, "barrel.gap + ", "1e3 * ")
+    assert "oval-bore" in failures(tmp_path, OVER_JOINTS, "-k", "oval-bore")
 
 
 def test_a_contact_law_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
@@ -179,11 +195,7 @@ def test_a_contact_law_of_the_manual_takes_one_file_and_one_line(tmp_path: Path)
     (package / "exponential.py").write_text(of_manual('"""Exponential'), encoding="utf-8")
     insert(package / "__init__.py", '    "linear:LinearContact",\n', '    "exponential:Exponential",\n')
     run(tmp_path, LAW)
-    tests = ("tests/analytic/test_contact_limits.py", "tests/unit/contact/test_laws.py")
-    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *tests]
-    done = subprocess.run(command, cwd=PAGE.parent, env=environment, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
+    assert not failures(tmp_path, "tests/analytic/test_contact_limits.py", "tests/unit/contact/test_laws.py")
 
 
 def test_a_command_takes_one_file_and_one_name(tmp_path: Path) -> None:
