@@ -156,6 +156,15 @@ def test_what_a_killed_process_left_is_removed_in_time(tmp_path: Path) -> None:
     assert (old.exists(), new.exists()) == (False, True)
 
 
+def test_who_has_a_folder_alone_removes_what_killed_processes_left_at_once(tmp_path: Path) -> None:
+    parts = [tmp_path / place / ".result.nc.1.part" for place in ("", "figures", "points")]
+    for part in parts:
+        part.parent.mkdir(exist_ok=True)
+        part.touch()
+    with OutputDirectory(str(tmp_path)).reserved():
+        assert not any(part.exists() for part in parts)
+
+
 def limit_files() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (SMALL, SMALL))
 

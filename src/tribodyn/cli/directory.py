@@ -88,11 +88,12 @@ class OutputDirectory:
 
         handle = os.open(self.path, os.O_RDONLY)
         try:
-            if not _locked(handle):
+            locked = _locked(handle)
+            if locked is False:
                 raise _refused(os.fspath(self.path), "another tribodyn is writing results there")
             self._reserved = True
-            for folder in (self.path, self.path / FIGURES):
-                remove_stale_parts(folder)
+            for folder in self._written():
+                remove_stale_parts(folder, alone=bool(locked))
             try:
                 yield
             except BaseException:
@@ -116,10 +117,14 @@ class OutputDirectory:
     def _abandon(self) -> None:
         """Leave nothing that is not whole behind, as this process is about to end."""
         if self._reserved:
-            for folder in (self.path, self.path / FIGURES):
+            for folder in self._written():
                 for part in folder.glob(".*.part"):
                     part.unlink(missing_ok=True)
         self._forget()
+
+    def _written(self) -> Iterator[Path]:
+        """Yield the folders in which files are replaced."""
+        yield from (self.path, self.path / FIGURES, self.path / POINTS)
 
     def pictures(self) -> list[Path]:
         """Return report and figures that are there."""
@@ -127,18 +132,18 @@ class OutputDirectory:
         return [*self.path.glob(REPORT), *figures.glob("*.png"), *figures.glob("*.pdf")]
 
 
-def _locked(handle: int) -> bool:
-    """Lock an open folder; False when another process has. File systems without locks let everyone in."""
+def _locked(handle: int) -> bool | None:
+    """Lock an open folder; False when another process has, None where the file system has no locks."""
     try:
         import fcntl
     except ImportError:
-        return True
+        return None
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
     except OSError:
-        return True
+        return None
     return True
 
 

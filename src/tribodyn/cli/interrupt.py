@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import shutil
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -145,12 +146,18 @@ def _leave() -> None:
     """End the process."""
     # Should anything below hang, the next signal does what it does to any process.
     _set(signal.SIG_DFL)
-    for action in (*_met.tidying, sys.stdout.flush):
+    for action in (*_met.tidying, _forget_workers, sys.stdout.flush):
         with suppress(Exception):
             action()
     if _met.last_words:
         _tell(f"\ntribodyn: {_met.last_words}\n")
     os._exit(_met.status)
+
+
+def _forget_workers() -> None:
+    """Remove the folder that multiprocessing has for its workers, if it is in use."""
+    if util := sys.modules.get("multiprocessing.util"):
+        shutil.rmtree(util.get_temp_dir())
 
 
 def _tell(text: str) -> None:

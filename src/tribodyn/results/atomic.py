@@ -127,17 +127,19 @@ def write_together(contents: Mapping[Path, Sequence[bytes | memoryview]], stale:
     _flush_folder(folder)
 
 
-def remove_stale_parts(folder: Path) -> None:
+def remove_stale_parts(folder: Path, *, alone: bool = False) -> None:
     """Remove temporary files that a killed process left in a folder; those being written now stay.
 
     Parameters
     ----------
     folder
         Where to look; it need not exist.
+    alone
+        Whether no other process writes there, so that all are left from a killed one.
     """
     for part in folder.glob(".*.part"):
         with suppress(OSError):
-            if time.time() - part.stat().st_mtime > _STALE:
+            if alone or time.time() - part.stat().st_mtime > _STALE:
                 part.unlink()
 
 

@@ -4,6 +4,8 @@ import os
 
 import pytest
 
+from tribodyn.cli import interrupt
+
 
 @pytest.fixture
 def leaving(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -13,3 +15,5 @@ def leaving(monkeypatch: pytest.MonkeyPatch) -> None:
         raise SystemExit(status)
 
     monkeypatch.setattr(os, "_exit", leave)
+    # Later tests may need the folder of workers of this process.
+    monkeypatch.setattr(interrupt, "_forget_workers", lambda: None)

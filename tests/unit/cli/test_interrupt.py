@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -26,6 +27,16 @@ with interrupt.signals_heard():
     reference = weakref.ref(thing, gone)
     del thing
     print("went on")
+"""
+
+WITH_WORKERS = """
+import os, signal
+from multiprocessing import util
+from tribodyn.cli import interrupt
+
+with interrupt.signals_heard():
+    assert os.path.isdir(util.get_temp_dir())
+    os.kill(os.getpid(), signal.SIGTERM)
 """
 
 
@@ -105,3 +116,9 @@ sys.exit(main())
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_leaving_removes_the_folder_of_workers(tmp_path: Path) -> None:
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", WITH_WORKERS], env=environment, capture_output=True)
+    assert (done.returncode, list(tmp_path.iterdir())) == (1, [])
