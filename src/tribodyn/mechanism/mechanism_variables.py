@@ -115,7 +115,7 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
 
 OF_MODES: Final[dict[str, Variable]] = {
     "mode": Variable("", "number of the mode", ("mode",), named=True, parts="modes"),
-    "natural_frequency": Variable("Hz", "natural frequency of the mode, zero of a free motion", _MODE),
+    "natural_frequency": Variable("Hz", "natural frequency of the mode", _MODE),
     "damping_ratio": Variable("1", "damping ratio of the mode, below zero where it grows", _MODE),
     "mode_shape": Variable(
         "1",

@@ -23,6 +23,7 @@ from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanism.analyses.linearised import LinearEquations, Linearised
 from tribodyn.mechanism.analyses.statics import Equilibria, require_no_film
 from tribodyn.mechanism.assembly.assembly import Assembly
+from tribodyn.mechanism.assembly.mechanism_problem import length_scale
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.positions import DrivePath, held, walked
 from tribodyn.mechanism.mechanism_case import MechanismCase
@@ -34,6 +35,8 @@ _UNDAMPED: Final = 1.0e-9
 """Damping ratio that is zero."""
 _REAL: Final = 1.0e-9
 """Imaginary part of an eigenvalue over its size that is zero."""
+_MOST: Final = 0.5
+"""Share of the kinetic energy along the axis of a joint from which a motion slides in it."""
 
 
 def without_friction(case: MechanismCase) -> MechanismCase:
@@ -198,13 +201,15 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
     mechanism, n = Linearised(assembly, times), position.shape[1]
     eigenvalue = np.full((times.size, most), np.nan, dtype=complex)
     shape, share = np.full((times.size, most, n, 6), np.nan), np.full((times.size, most, n), np.nan)
-    unstable = np.zeros(times.size)
+    unstable, free = np.zeros(times.size), dict[str, None]()
     for k, t in enumerate(times.tolist()):
         state = np.zeros((n, N_STATES))
         state[:, :ORIENTATION], state[:, ORIENTATION:VELOCITY] = position[k], orientation[k]
         linear = mechanism.at(t, state.ravel())
-        modes = modes_of(linear)
+        modes = _held(assembly, mechanism, linear, modes_of(linear), free)
         kept = modes.eigenvalue[:most]
+        if not kept.size:
+            continue
         grows = modes.eigenvalue.real > _UNDAMPED * np.abs(modes.eigenvalue)
         unstable[k] = np.max(modes.eigenvalue.real[grows], initial=0.0)
         eigenvalue[k, : kept.size] = kept
@@ -215,6 +220,9 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
         turned = [turn.apply(part[:, 3:]) for part in parts]
         shape[k, : kept.size] = np.concatenate([parts[:, :, :3], turned], axis=2)
     used = np.isfinite(eigenvalue).any(axis=0)
+    notes = [*_free_motions(free), *_without_contact(assembly, found)]
+    if not used.any():
+        return Vibrations(notes=notes)
     size = np.abs(eigenvalue[:, used])
     ratio = -eigenvalue[:, used].real / np.where(size > 0.0, size, 1.0)
     return Vibrations(
@@ -227,12 +235,35 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
         },
         {"mode": [str(number) for number in range(1, int(np.sum(used)) + 1)]},
         _instability(times, unstable),
-        [
-            *_moving(assembly.model.bodies, share[0, used]),
-            *_free_motions(size),
-            *_without_contact(assembly, found),
-        ],
+        [*_moving(assembly.model.bodies, share[0, used]), *notes],
     )
+
+
+def _held(
+    assembly: Assembly, mechanism: Linearised, linear: LinearEquations, modes: Modes, free: dict[str, None]
+) -> Modes:
+    """Return the modes that something holds, and add the others to ``free``, in words.
+
+    Nothing holds what has no stiffness, nor a slide along the axis of a joint within its end gaps: one of no
+    more stiffness than weights and loads give, |s|² ≤ load · way/length.
+    """
+    bodies, slides = assembly.model.bodies, mechanism.system.now.couplings["RT"][assembly.model.real, 2]
+    moved = linear.motions @ modes.shape
+    weighed = np.linalg.solve(mechanism.system.metric, moved).T.reshape(-1, len(bodies), 6)
+    ways = np.linalg.norm(moved.T.reshape(weighed.shape)[:, :, :3], axis=2).max(axis=1)
+    bound = linear.load * ways / length_scale(assembly)
+    kept = np.full(ways.size, True)
+    for m, (parts, s) in enumerate(zip(weighed, modes.eigenvalue, strict=True)):
+        along = np.sum((parts[:, :3] @ slides.T) ** 2, axis=0) if len(slides) else np.zeros(1)
+        slide = np.max(along) > _MOST and abs(s) ** 2 <= bound[m]
+        kept[m] = not slide and s != 0.0
+        if not kept[m]:
+            body = bodies[int(np.argmax(np.sum(parts**2, axis=1)))]
+            joints = zip(along.tolist(), assembly.model.clearances, strict=False)
+            ways_of = [name for way, name in joints if way > _MOST]
+            own = [name for name in ways_of if body in assembly.model.case.joints[name].between]
+            free[" along ".join([body, *(own or ways_of)[:1]])] = None
+    return Modes(modes.eigenvalue[kept], modes.shape[:, kept])
 
 
 def _instability(times: FloatArray, rate: FloatArray) -> list[str]:
@@ -257,15 +288,10 @@ def _moving(bodies: Sequence[str], share: FloatArray) -> list[str]:
     return [f"largest share of a body in the kinetic energy of each mode at the start: {', '.join(named)}"]
 
 
-def _free_motions(size: FloatArray) -> list[str]:
-    """Return the number of free motions in words."""
-    most = int(np.max(np.sum(size == 0.0, axis=1), initial=0))
-    if most == 0:
-        return []
-    return [
-        f"{most} motion{'s' * (most > 1)} without stiffness {'has' if most == 1 else 'have'} the frequency "
-        "zero"
-    ]
+def _free_motions(free: Mapping[str, None]) -> list[str]:
+    """Return the motions that nothing holds, in words."""
+    words = "free within the end gaps or without stiffness, and no modes"
+    return [f"{words}: {', '.join(free)}"] if free else []
 
 
 def _without_contact(assembly: Assembly, found: Observed) -> list[str]:

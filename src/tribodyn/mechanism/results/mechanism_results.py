@@ -245,7 +245,7 @@ BY_MODE: Final[dict[str, ByPart]] = {
     "frequency_Hz": _of_mode(
         "Frequency at the start",
         "Hz",
-        "Natural frequency at the first position; zero of a motion that nothing holds.",
+        "Natural frequency at the first position; motions that nothing holds are no modes.",
         "natural_frequency",
         lambda values: float(values[0]),
     ),
