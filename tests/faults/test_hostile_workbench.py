@@ -211,7 +211,7 @@ def test_a_page_that_says_anything_is_answered_and_nothing_is_touched(number: in
             watch.on = False
             kinds = {said["type"] for said in page.heard}
             assert {"error", "refused"} <= kinds
-            assert len(host.person.user.frames) < 400
+            assert len(host.state.kept.frames) < 400
         assert watch.touched == []
 
     finished(test())

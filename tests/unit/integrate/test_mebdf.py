@@ -68,7 +68,8 @@ def test_a_stop_is_heard_soon_however_long_a_step_takes(solver: str) -> None:
 
     result = simulate(case, stop=stop)
     assert result.attrs["failure"] == "interrupted"
-    assert max(later - sooner for sooner, later in pairwise(looks)) < 0.5
+    # A step takes some tenths of a second; where other programs use the caches, a few times that.
+    assert max(later - sooner for sooner, later in pairwise(looks)) < 2.0
 
 
 def test_no_thread_is_left() -> None:
