@@ -255,3 +255,11 @@ def test_only_the_lowest_modes_are_kept() -> None:
     assert found.shape == (3, 3)
     assert np.all(np.diff(found, axis=1) >= 0.0)
     assert column(result, "mode_share").sum(axis=2) == pytest.approx(np.ones((3, 3)))
+
+
+def test_a_pendulum_in_a_bore_swings_and_its_slide_is_no_mode() -> None:
+    sizes = {"radius": "6 mm", "radial": "20 um", "length": "12 mm", "axial": "50 um"}
+    result = td.simulate(pendulum().clearance("hinge", **sizes))
+    assert result.attrs["warnings"] == "[]"
+    assert frequencies(result)[0, 0] == pytest.approx(OF_PENDULUM, rel=1e-3)
+    assert "no modes: arm along hinge" in result.attrs["notes"]

@@ -202,11 +202,13 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
     eigenvalue = np.full((times.size, most), np.nan, dtype=complex)
     shape, share = np.full((times.size, most, n, 6), np.nan), np.full((times.size, most, n), np.nan)
     unstable, free = np.zeros(times.size), dict[str, None]()
+    forces = np.linalg.norm(found.couplings["reaction_force"], axis=-1).max(axis=1)
     for k, t in enumerate(times.tolist()):
         state = np.zeros((n, N_STATES))
         state[:, :ORIENTATION], state[:, ORIENTATION:VELOCITY] = position[k], orientation[k]
         linear = mechanism.at(t, state.ravel())
-        modes = _held(assembly, mechanism, linear, modes_of(linear), free)
+        modes, others = _held(assembly, mechanism, linear.motions, float(forces[k]), modes_of(linear))
+        free |= dict.fromkeys(others)
         kept = modes.eigenvalue[:most]
         if not kept.size:
             continue
@@ -240,18 +242,18 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
 
 
 def _held(
-    assembly: Assembly, mechanism: Linearised, linear: LinearEquations, modes: Modes, free: dict[str, None]
-) -> Modes:
-    """Return the modes that something holds, and add the others to ``free``, in words.
+    assembly: Assembly, mechanism: Linearised, motions: FloatArray, force: float, modes: Modes
+) -> tuple[Modes, list[str]]:
+    """Return the modes that something holds, and the other motions in words.
 
     Nothing holds what has no stiffness, nor a slide along the axis of a joint within its end gaps: one of no
-    more stiffness than weights and loads give, |s|² ≤ load · way/length.
+    more stiffness than the largest force in a joint gives, |s|² ≤ F way²/length.
     """
     bodies, slides = assembly.model.bodies, mechanism.system.now.couplings["RT"][assembly.model.real, 2]
-    moved = linear.motions @ modes.shape
+    moved, free = motions @ modes.shape, []
     weighed = np.linalg.solve(mechanism.system.metric, moved).T.reshape(-1, len(bodies), 6)
     ways = np.linalg.norm(moved.T.reshape(weighed.shape)[:, :, :3], axis=2).max(axis=1)
-    bound = linear.load * ways / length_scale(assembly)
+    bound = force * ways**2 / length_scale(assembly)
     kept = np.full(ways.size, True)
     for m, (parts, s) in enumerate(zip(weighed, modes.eigenvalue, strict=True)):
         along = np.sum((parts[:, :3] @ slides.T) ** 2, axis=0) if len(slides) else np.zeros(1)
@@ -262,8 +264,8 @@ def _held(
             joints = zip(along.tolist(), assembly.model.clearances, strict=False)
             ways_of = [name for way, name in joints if way > _MOST]
             own = [name for name in ways_of if body in assembly.model.case.joints[name].between]
-            free[" along ".join([body, *(own or ways_of)[:1]])] = None
-    return Modes(modes.eigenvalue[kept], modes.shape[:, kept])
+            free.append(" along ".join([body, *(own or ways_of)[:1]]))
+    return Modes(modes.eigenvalue[kept], modes.shape[:, kept]), free
 
 
 def _instability(times: FloatArray, rate: FloatArray) -> list[str]:
