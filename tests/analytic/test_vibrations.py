@@ -11,6 +11,8 @@ from tests.analytic.test_outputs import BAR, CRANK, ROD, of
 
 import tribodyn as td
 from tribodyn.core.errors import TribodynError
+from tribodyn.figures.style import INK, PALE
+from tribodyn.mechanism.figures import FIGURES
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.reading import column
 
@@ -263,3 +265,15 @@ def test_a_pendulum_in_a_bore_swings_and_its_slide_is_no_mode() -> None:
     assert result.attrs["warnings"] == "[]"
     assert frequencies(result)[0, 0] == pytest.approx(OF_PENDULUM, rel=1e-3)
     assert "no modes: arm along hinge" in result.attrs["notes"]
+
+
+def test_shapes_of_modes_are_drawn_at_rest_and_displaced() -> None:
+    result = td.simulate(slider_crank("5 N/mm"))
+    (axes,) = FIGURES["mode_shapes"].draw(result).axes
+    assert axes.get_title() == f"mode 1, {float(result['natural_frequency'][0, 0]):.4g} Hz"
+    rest, moved = (
+        np.concatenate([line.get_xydata() for line in axes.lines if line.get_color() == c])
+        for c in (PALE, INK)
+    )
+    # The crank turns by 0.15 rad as drawn: its pin, rod and slider move by R times that.
+    assert np.abs(moved - rest[-len(moved) :]).max() == pytest.approx(150.0 * CRANK, rel=1e-2)

@@ -7,7 +7,7 @@ from typing import Final
 from tribodyn.figures import chart, energy, wear
 from tribodyn.figures.base import Animation, Family
 from tribodyn.mechanism.figures import animation as film
-from tribodyn.mechanism.figures import joints, mechanism, solids
+from tribodyn.mechanism.figures import joints, mechanism, mode_shapes, solids
 from tribodyn.mechanism.results.readings import BALANCES
 from tribodyn.mechanism.sections.charts import CHARTS
 
@@ -15,6 +15,7 @@ FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         mechanism.FAMILY,
+        mode_shapes.FAMILY,
         *map(chart.family, CHARTS),
         joints.ORBITS,
         joints.PRESSURE,
