@@ -243,3 +243,18 @@ def test_a_right_hand_side_of_the_wrong_shape(value):
         ValueError, match=r"`fun` is expected to return shape \(2,\), but returned .* at t = 0\."
     ):
         solve(lambda t, y: value, (0.0, 1.0), [1.0, 0.0])
+
+
+@pytest.mark.parametrize("options", [{"mass": [1.0, 0.0]}, {"slope": [-1.0, 0.0]}])
+def test_an_algebraic_value_that_jumps_names_the_cure(options):
+    def fun(t, y, slope=(0.0, 0.0)):
+        rate = slope[0] + 1.0 if "slope" in options else -1.0
+        return [rate, y[1] - np.sign(y[0])]
+
+    solution = solve(fun, (0.0, 2.0), [1.0, 1.0], **options)
+    assert not solution.success
+    assert solution.message.endswith(
+        "if component 1 jumps, `test_algebraic=False` leaves it out of the error test"
+    )
+    if "mass" in options:
+        assert solve(fun, (0.0, 2.0), [1.0, 1.0], test_algebraic=False, **options).success

@@ -12,6 +12,9 @@ from mebdf.arrays import FloatArray
 
 SMALLEST_TOLERANCE = 1.0e-299
 SMALLEST_RTOL = 100.0 * float(np.finfo(np.float64).eps)
+SMALLEST_ATOL = 1.0e-290
+LARGEST_ATOL = 1.0e100
+"""What stands for absolute tolerances of zero and of infinity where they are divided by."""
 
 
 def tolerances(rtol: ArrayLike, atol: ArrayLike, n: int) -> tuple[FloatArray, FloatArray]:
@@ -69,6 +72,12 @@ def resolved(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> None:
             f"`atol` must be positive for component {i}: with {y0[i]:g} the relative tolerance alone is "
             f"below {SMALLEST_TOLERANCE:g}; or take another unit."
         )
+
+
+def sizes(y0: FloatArray, rtol: FloatArray, atol: FloatArray) -> FloatArray:
+    """Return absolute tolerances that tell the sizes of the components: positive and finite, shape (n,)."""
+    untested = np.maximum(np.abs(y0), 1.0) * rtol
+    return np.where(atol >= LARGEST_ATOL, untested, np.maximum(atol, SMALLEST_ATOL))
 
 
 def _vector(name: str, values: FloatArray, n: int) -> FloatArray:

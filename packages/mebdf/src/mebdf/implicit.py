@@ -79,7 +79,7 @@ class Residual:
 
     def __call__(self, t: float, y: FloatArray) -> FloatArray:
         """Return −F at the present slope, shape (n,)."""
-        value: FloatArray = -np.asarray(self._fun(t, y, self.slope.copy()), dtype=np.float64)
+        value: FloatArray = -np.asarray(self._fun(t, y.copy(), self.slope.copy()), dtype=np.float64)
         if value.shape != y.shape:
             raise ValueError(f"`fun` is expected to return shape {y.shape}, but returned {value.shape}.")
         return value
@@ -97,7 +97,9 @@ class Residual:
             Time in which a variable of that size comes about.
         """
         if self._jac is not None:
-            pair = [np.asarray(matrix, dtype=np.float64) for matrix in self._jac(t, y, self.slope.copy())]
+            pair = [
+                np.asarray(matrix, dtype=np.float64) for matrix in self._jac(t, y.copy(), self.slope.copy())
+            ]
             if [matrix.shape for matrix in pair] != [(y.size, y.size)] * 2:
                 raise ValueError(f"`jac` is expected to return two matrices of shape {(y.size, y.size)}.")
             return -pair[0], pair[1]
@@ -194,21 +196,20 @@ class Residual:
                 raise ValueError(f"The equations are not finite at t = {t:g}.")
             step, bend = _corrections(f, of_y, of_slope)
             new, self.slope = new + step, self.slope + bend
-            settled = np.abs(bend * h) <= np.maximum(scale, UNCHANGED * np.abs(self.slope * h))
-            if np.all(np.abs(step) <= 0.1 * scale) and np.all(settled):
+            settled = np.maximum(scale / abs(h), UNCHANGED * np.abs(self.slope))
+            if np.all(np.abs(step) <= 0.1 * scale) and np.all(np.abs(bend) <= settled):
                 break
-        self._require(t, new, of_y, scale)
+        self._require(t, new, np.abs(of_y) @ scale + np.abs(of_slope) @ settled)
         changed = np.abs(new - y) > scale
         if not np.any(changed):
             return y, ""
         return new, changes(t, y, new, changed, names)
 
-    def _require(self, t: float, y: FloatArray, of_y: FloatArray, scale: FloatArray) -> None:
-        """Refuse values at which an equation does not hold within what the tolerances change in it."""
+    def _require(self, t: float, y: FloatArray, allowed: FloatArray) -> None:
+        """Refuse values at which an equation is further from holding than ``allowed``, shape (n,)."""
         f = np.abs(self(t, y))
-        least = np.abs(of_y) @ scale
-        if np.any(f > least):
-            worst = int(np.argmax(f - least))
+        if np.any(f > allowed):
+            worst = int(np.argmax(f - allowed))
             raise ValueError(
                 f"The values at t = {t:g} are not consistent: equation {worst} does not hold, "
                 "whatever `slope` is; give values that fulfil it."

@@ -10,6 +10,9 @@ from mebdf.kernels import phases
 from mebdf.kernels import state as entry
 from mebdf.kernels.state import MebdfState
 
+LATEST = 1.0e300
+"""Time beyond which a step may lead out of the numbers."""
+
 
 def reason(
     state: MebdfState, names: Sequence[str], entry_not_finite: Callable[[MebdfState], tuple[int, int]]
@@ -30,16 +33,22 @@ def reason(
         return f"the Jacobian entry d(rate of {names[row]})/d({names[column]}) is not finite"
     if state.number("cause") == phases.SINGULAR and state.number("worst") >= 0:
         return f"the matrix of Newton's iteration is singular{_undetermined(state, names)}"
+    rows, worst = state.rows, state.number("worst")
+    without = (rows[entry.ATOL] == 0.0) & (rows[entry.HISTORY] == 0.0) & (rows[entry.F_1] != 0.0)
+    if without.any():
+        name = names[int(np.argmax(without))]
+        return f"{name} is 0, where its relative tolerance allows no error; give it an absolute one"
+    if abs(state.number("t")) > LATEST:
+        return "no end was met before the largest number; give a finite end or an event that ends"
     if state.number("reason") == phases.NO_PROGRESS:
-        name = names[state.number("worst")]
         return (
-            f"Newton's iteration fails again and again, worst in {name}, with hardly any progress: "
+            f"Newton's iteration fails again and again, worst in {names[worst]}, with hardly any progress: "
             "the rates jump there or the Jacobian is wrong"
         )
     text = "the step became shorter than the spacing between numbers"
     if (bad := state.number("bad")) >= 0:
-        return f"{text}; the rate of {names[bad]} was not finite at t = {state.number('t_bad'):.9g} s"
-    if (worst := state.number("worst")) >= 0:
+        return f"{text}; the rate of {names[bad]} was not finite at t = {state.number('t_bad'):.9g}"
+    if worst >= 0:
         cause = (
             "Newton's iteration did not converge"
             if state.number("cause") == phases.NEWTON

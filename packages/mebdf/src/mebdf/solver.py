@@ -14,12 +14,14 @@ from scipy.integrate import DenseOutput, OdeSolver
 from mebdf.algebra import Algebra
 from mebdf.arrays import FloatArray
 from mebdf.checks import (
+    LARGEST_ATOL,
     SMALLEST_RTOL,
     bands,
     inner_times,
     largest_step,
     order,
     resolved,
+    sizes,
     span,
     starting_step,
     tolerances,
@@ -35,6 +37,7 @@ from mebdf.kernels import state as entry
 from mebdf.kernels.coefficients import MAX_K
 from mebdf.kernels.core import resume
 from mebdf.kernels.phases import (
+    ERROR_TEST,
     FAILED,
     NEED_F,
     NEED_FACTORS,
@@ -142,10 +145,12 @@ class MEBDF(OdeSolver):
                     "`slope` excludes `mass`, `jac_sparsity`, `lband`, `uband` and `vectorized`."
                 )
             fun = self._residual = Residual(fun, slope, jac, np.size(y0))
-        super().__init__(fun, t0, y0, t_bound, vectorized)
+        # Functions may write into the state that they are given.
+        super().__init__(lambda t, y: fun(t, y.copy()), t0, y0, t_bound, vectorized)
         self.max_step = largest_step(max_step)
         self.rtol, self.atol = tolerances(rtol, atol, self.n)
         resolved(self.y, self.rtol, self.atol)
+        self._sizes = sizes(self.y, self.rtol, self.atol)
         self._index, self._test_algebraic = index, test_algebraic
         self._mass = None if self._residual else read_mass(mass, index, test_algebraic, self.n)
         self._names = [f"component {i}" for i in range(self.n)]
@@ -158,7 +163,7 @@ class MEBDF(OdeSolver):
                 jac,
                 jac_sparsity,
                 bands(lband, uband, self.n),
-                (self.rtol, self.atol),
+                (self.rtol, self._sizes),
                 self._mass,
                 self._in_trouble,
             )
@@ -188,10 +193,8 @@ class MEBDF(OdeSolver):
         if warning:
             warn(warning, stacklevel=4)
             self._jump = before
-        t, end = float(self.t), self._ends[0]
-        return new_state(
-            t, self.y, end, self.rtol, self.atol, first_step=first_step, mass=mass, **self._options
-        )
+        t, end, atol = float(self.t), self._ends[0], np.minimum(self.atol, LARGEST_ATOL)
+        return new_state(t, self.y, end, self.rtol, atol, first_step=first_step, mass=mass, **self._options)
 
     def _consistent(
         self, fun: Callable[..., FloatArray], jacobian: Callable[..., Any], mass: MassMatrix
@@ -200,7 +203,7 @@ class MEBDF(OdeSolver):
         t = float(self.t)
         # A step leaves variables of higher index as wrong as its weights allow.
         step = 1.0 if self.t_old is None else min(abs(self._state.number("h_last")), 1.0)
-        scale = (self.atol + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
+        scale = (self._sizes + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
         self.y, slope, warning = consistent(fun, jacobian, t, self.y, self._ends[0], mass, scale, self._names)
         if self.t_old is None:
             found = check_index(jacobian, t, self.y, mass.matrix, mass.index, self._typical, self._names)
@@ -211,7 +214,7 @@ class MEBDF(OdeSolver):
     @property
     def _typical(self) -> FloatArray:
         """Return the size of each variable at which both its tolerances are equal, shape (n,)."""
-        return np.asarray(self.atol / np.maximum(self.rtol, SMALLEST_RTOL))
+        return np.asarray(self._sizes / np.maximum(self.rtol, SMALLEST_RTOL))
 
     def _slopes(self, t: float, y: FloatArray) -> Any:
         """Return the Jacobian for consistent values: by differences where one that is given may be wrong."""
@@ -221,8 +224,8 @@ class MEBDF(OdeSolver):
 
     def _implicit_start(self, residual: Residual) -> tuple[entry.Mass, str]:
         """Find consistent values and the slope; return ∂F/∂y' there, and what was changed."""
-        t, left, tolerances = float(self.t), self._ends[0] - float(self.t), (self.rtol, self.atol)
-        typical = self.atol / self.rtol
+        t, left, tolerances = float(self.t), self._ends[0] - float(self.t), (self.rtol, self._sizes)
+        typical = self._sizes / self.rtol
         self.y, warning = residual.consistent(t, self.y, left, tolerances, self._names)
         of_slope = residual.linearise(t, self.y, typical, left)[1]
         read = read_mass(of_slope, self._index, self._test_algebraic, self.n)
@@ -240,7 +243,7 @@ class MEBDF(OdeSolver):
         def pair(t: float, y: FloatArray) -> tuple[FloatArray, FloatArray]:
             residual.move_to_newest(self._state)
             h = self._state.number("h")
-            return residual.linearise(t, y, self.atol / self.rtol, h)
+            return residual.linearise(t, y, self._sizes / self.rtol, h)
 
         def jacobian(t: float, y: FloatArray) -> FloatArray:
             """Renew the mass matrix, too, unless one of them is not finite."""
@@ -253,7 +256,7 @@ class MEBDF(OdeSolver):
 
         if self.n <= LARGEST_IN_CORE:
             return Linear(jacobian, None, residual.evaluations)
-        return Linear(jacobian, ImplicitFull(pair, self.atol / self.rtol), residual.evaluations)
+        return Linear(jacobian, ImplicitFull(pair, self._sizes / self.rtol), residual.evaluations)
 
     def _step_impl(self) -> tuple[bool, str | None]:
         """Take one step; return whether it succeeded, and why not."""
@@ -277,9 +280,20 @@ class MEBDF(OdeSolver):
         self.njev = before[1] + state.number("n_j")
         self.nlu = before[2] + state.number("n_lu")
         if request == FAILED:
-            return False, reason(self._state, self._names, self._entry_not_finite)
+            return False, reason(state, self._names, self._entry_not_finite) + self._cure()
         self.t, self.y = state.number("t"), state.rows[HISTORY].copy()
         return True, None
+
+    def _cure(self) -> str:
+        """Return, in words, what helps where the error test of an algebraic variable failed."""
+        state, worst = self._state, self._state.number("worst")
+        if state.number("cause") != ERROR_TEST or worst < 0 or not state.rows[entry.TESTED, worst]:
+            return ""
+        size = state.places[self.n]
+        columns = state.places[self.n + 1 : self.n + 1 + size]
+        if worst in columns[state.mass[:size] != 0.0]:
+            return ""
+        return f"; if {self._names[worst]} jumps, `test_algebraic=False` leaves it out of the error test"
 
     def _core_step(self) -> int:
         """Evaluate for the core until it has accepted a step or given up; return which."""
@@ -287,7 +301,7 @@ class MEBDF(OdeSolver):
         rows = state.rows
         kink = self._ends[0] if len(self._ends) > 1 else None
         while (request := core(*state)) not in ENDS_OF_STEP:
-            t, y = state.number("t_eval"), rows[Y].copy()
+            t, y = state.number("t_eval"), rows[Y]
             if t == kink:
                 t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
             if request != NEED_F:
