@@ -15,13 +15,14 @@ PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -n 3 --dist worksteal
 NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:
-.PHONY: help demo assumptions ready kernels test check test-long golden lint format pages docs bench lock clean
+.PHONY: help demo assumptions ready kernels test check check-long test-long golden lint format pages docs bench lock clean
 
 help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make test        the whole suite but its longest tests"
-	@echo "make check       what takes longer: the paper in full, the manual, validation, the wheel, a seventh of the longest"
+	@echo "make check       what takes longer: the paper in full, the manual, validation, the wheels with the README's commands"
+	@echo "make check-long  the seventh of the longest tests that is today's"
 	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
 	@echo "make golden      store key results and messages anew"
 	@echo "make lint        style, types, layers and spelling"
@@ -44,13 +45,16 @@ assumptions: demo
 test: ready
 	$(PYTEST) -m "not long"
 
-# What is promised and takes longer than tests may. A week of days runs all tests marked long: a seventh each day.
+# A week of days runs all tests marked long: a seventh each day.
 SEVENTH := $(shell expr $$(date +%s) / 86400 % 7)
+# What is promised and takes longer than tests may.
 check: ready $(VENV)/.docs
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
 	$(BIN)/tribodyn validate -o out/validation --quiet
 	$(MAKE) docs
 	tools/try-wheel $(BIN)/python
+
+check-long: ready
 	$(PYTEST) -m long --part $(SEVENTH)/7
 
 # Numerical tests must not depend on rounding: ten relative tolerances 1e-9 apart take other roundings each.
