@@ -15,7 +15,7 @@ from numba.core.types import WrapperAddressProtocol
 
 
 def address_of(compiled: Any, signature: Any) -> int:
-    """Return the address of the machine code of an ``entry`` of :mod:`.jit`, for a signature."""
+    """Return the address of the machine code of an ``entry`` of ``kernels/jit.py``, for a signature."""
     result = compiled.get_compile_result(signature)
     return int(result.library.get_pointer_to_function(result.fndesc.llvm_cfunc_wrapper_name))
 

@@ -1,4 +1,4 @@
-"""Newton's method for where the loads on displaced bodies balance, see :mod:`.equilibrium`.
+"""Newton's method for where the loads on displaced bodies balance, see ``equilibrium.py`` beside it.
 
 Possible motions change as bodies move: they are looked for, steps are made along them until loads balance,
 and they are looked for again, until nothing changes.
