@@ -26,7 +26,7 @@ def test_a_clearance_below_the_roughness_of_bronze_is_said_before_and_after_the_
     assert any("times the combined roughness" in text for text in before)
     result = td.simulate(case)
     said = " ".join(summarise(result)["warnings"])
-    assert "In pivot:barrel the radial clearance of 0.06 um" in said
+    assert "In pivot:barrel this is a press fit: the radial clearance of 0.06 um" in said
     assert "In pivot:barrel the contact pressure reached" in said
     share = float(result["hardness_share"].sel(surface="pivot:barrel"))
     peak = float(result["pressure_peak"].sel(surface="pivot:barrel"))
