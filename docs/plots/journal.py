@@ -16,8 +16,7 @@ import tribodyn as td
 from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.stribeck import stribeck
-from tribodyn.presets.journal.system import JournalSystem, journal_of
+from tribodyn.presets.journal.system import system_of
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
 COARSE, FINE = 2e-6, 1e-7
@@ -31,7 +30,7 @@ def fixed_step(
 
     Returns times [s] and eccentricities [m].
     """
-    problem = JournalSystem(case).problem(duration)
+    problem = system_of(case).problem(duration)
     call, data, memory = machine_code(problem, kernel_types(problem)), problem.data, problem.memory
     y, rate = problem.y0.copy(), np.empty(problem.y0.size)
     times, eccentricities = [], []
@@ -69,7 +68,7 @@ def draw_coarse(target: Path) -> None:
 def draw_stribeck(target: Path) -> None:
     """Friction coefficient, and shares of the load, over the speed of rotation."""
     case = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
-    curve = stribeck(journal_of(case), np.geomspace(0.5, 3000.0, 60))
+    curve = td.stribeck(case, np.geomspace(0.5, 3000.0, 60)).isel(viscosity=0)
     figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.6, 5.0), sharex=True, layout="constrained")
     least = int(np.argmin(curve.friction_coefficient))
     top.loglog(curve.speed, curve.friction_coefficient, color="black")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from tribodyn.mechanism.builder.mechanism_builder import Mechanism
     from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanisms.results import read
-    from tribodyn.presets.journal.curves import stribeck
+    from tribodyn.presets.journal.stribeck import stribeck
     from tribodyn.simulation import check, simulate
 
 __all__ = [
@@ -42,7 +42,7 @@ _HOME = {
     "materials": "tribodyn.cases.materials:MATERIALS",
     "read": "tribodyn.mechanisms.results:read",
     "simulate": "tribodyn.simulation:simulate",
-    "stribeck": "tribodyn.presets.journal.curves:stribeck",
+    "stribeck": "tribodyn.presets.journal.stribeck:stribeck",
 }
 _GIVING_RESULTS = ("read", "simulate")
 

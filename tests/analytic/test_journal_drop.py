@@ -17,7 +17,9 @@ from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
 from tribodyn.kernels.mechanism.data import VELOCITY
-from tribodyn.presets.journal.system import JournalSystem, journal_of
+from tribodyn.mechanism.mechanism_variables import observed
+from tribodyn.presets.journal.results import named_as_printed
+from tribodyn.presets.journal.system import journal_of, system_of
 
 MakeJoint = Callable[..., BushingJoint]
 MASS = 0.253
@@ -85,12 +87,12 @@ def test_agrees_with_the_journal_as_a_mechanism() -> None:
     speed = design_speed(joint, mass=MASS, pressure=50e6)
     made = drop(joint, mass=MASS, speed=speed)
     onset, duration = onset_eccentricity(joint), 60.0 * joint.roughness / speed
-    system = JournalSystem(case.replace({"run.start_x": f"{onset!r} m"}))
+    system = system_of(case.replace({"run.start_x": f"{onset!r} m"}))
     problem = system.problem(duration)
     problem.memory.contact.entry_velocity[:] = 0.0
     problem.y0[VELOCITY] = speed
     solution = integrate(problem, rtol=1e-7, output_times=np.linspace(0.0, duration, 3001))
-    rows = system.rows(solution.rows)
+    rows = named_as_printed(observed(solution.rows, 1).couplings, tilts=False)
     outside = np.flatnonzero((rows["e_x"] <= onset) & (rows["e_x_dot"] < 0.0))[0]
     # Two integrators with steps of their own, at whose ends points enter contact.
     assert made.restitution == pytest.approx(-rows["e_x_dot"][outside] / speed, abs=2e-4)

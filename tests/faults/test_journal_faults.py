@@ -15,8 +15,8 @@ from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film
-from tribodyn.presets.journal.equilibrium import equilibrium
-from tribodyn.presets.journal.parameters import Journal, Loads
+from tribodyn.mechanisms.results import summarise
+from tribodyn.presets.journal.equilibrium import Journal, Loads, equilibrium
 
 REFUSED = [
     ("journal-oil", "film.viscosity", "0 Pa s", "> 0"),
@@ -108,4 +108,4 @@ def test_a_journal_without_load_stays_where_it_is() -> None:
     )
     assert not result.attrs["failure"]
     assert float(abs(result["e_x"]).max()) == 0.0
-    assert float(result["rebounds"].max()) == 0.0
+    assert summarise(result)["rebounds"] == 0

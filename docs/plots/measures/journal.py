@@ -37,7 +37,7 @@ def oil_apart(runs: Runs, floor: str) -> FloatArray:
     shared = {"contact.minimum_entry_velocity": floor}
     rsdc, ke = (runs.run("journal-oil", {"contact.law": name, **shared}) for name in ("rsdc", "ke"))
     apart = np.hypot(*(rsdc[f"e_{axis}"].values - ke[f"e_{axis}"].values for axis in "xy"))
-    return np.array([1e6 * float(apart.max()), float(rsdc["contact_start"]) * 1e3])
+    return np.array([1e6 * float(apart.max()), key_result(rsdc, "contact_start_ms")])
 
 
 def from_balance(runs: Runs) -> str:

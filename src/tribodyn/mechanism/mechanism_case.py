@@ -16,6 +16,7 @@ from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import Case, demand
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
+from tribodyn.cases.film import FilmGridKeys
 from tribodyn.cases.functions import Doors, OwnFunction
 from tribodyn.cases.groups import Contact, Wear, check_output_interval
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
@@ -141,14 +142,14 @@ class MechanismCase(_WithElements):
         return found
 
     def with_coarse_grids(self) -> Self:
-        """Return the case with few nodes on all surfaces."""
-        joints = {
-            name: joint
-            if joint.clearance is None
-            else joint.model_copy(update={"clearance": joint.clearance.with_nodes(*FEWEST)})
-            for name, joint in self.joints.items()
-        }
-        return self.model_copy(update={"joints": joints})
+        """Return the case with few nodes on all surfaces and in all films."""
+
+        def coarse(joint: JointKeys) -> JointKeys:
+            clearance = joint.clearance and joint.clearance.with_nodes(*FEWEST)
+            film = joint.film and joint.film.model_copy(update={"grid": FilmGridKeys(theta=8, z=4)})
+            return joint.model_copy(update={"clearance": clearance, "film": film})
+
+        return self.model_copy(update={"joints": {name: coarse(one) for name, one in self.joints.items()}})
 
     def of_pair(self, clearance: ClearanceKeys) -> PairKeys | Self:
         """Return surfaces, contact law, friction and wear of a joint: its pair, or those of the case."""

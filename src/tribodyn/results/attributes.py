@@ -28,15 +28,15 @@ ROWS_HASH: Final = "rows_sha256"
 """SHA-256 of its rows."""
 ASSUMED_WEAR: Final = "assumed_wear"
 """Joints, as in names of numbers, whose wear rate nobody chose; an empty name for all."""
+MODEL: Final = "model"
+"""The model file of the mechanism that a case of another kind stands for."""
 NOT_KEPT: Final = "not_kept"
 """Names of variables that the case did not ask for."""
 
 ATTRIBUTES: Final[dict[str, str]] = {
-    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start"), TEXT),
-    **dict.fromkeys(
-        ("clearance", "assembly_clearance", "joint_length", "cycle_period", "impact_time", "viscosity"), SIZE
-    ),
-    **dict.fromkeys(("roughness", "friction_coefficient", "load_x", "load_y", "speed"), NUMBER),
+    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start", MODEL), TEXT),
+    **dict.fromkeys(("clearance", "assembly_clearance", "joint_length", "cycle_period", "impact_time"), SIZE),
+    **dict.fromkeys(("roughness", "friction_coefficient"), NUMBER),
     **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),
     **dict.fromkeys(("separation_least", "collar_lift_off_time", "tensile_clip_time"), OUTCOME),
     "time_reached": OUTCOME,

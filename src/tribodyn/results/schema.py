@@ -19,6 +19,7 @@ from tribodyn.results.attributes import (
     ATTRIBUTES,
     FACTS,
     GAPS,
+    MODEL,
     NUMBER,
     OUTCOME,
     SIZE,
@@ -66,10 +67,9 @@ def check(dataset: xr.Dataset, kinds: Kinds) -> None:
     if dataset.attrs.get("kind") == SWEEP:
         _check_sweep(dataset)
     else:
-        case = _case(dataset)
-        known = {**VARIABLES, **_variables_of(dataset, case, kinds)}
+        known = {**VARIABLES, **_variables_of(dataset, _tables(dataset, "case"), kinds)}
         _check_run(dataset, known)
-        _check_names(dataset, known, case)
+        _check_names(dataset, known, _tables(dataset, MODEL, "case"))
 
 
 def is_summary(content: object) -> bool:
@@ -140,10 +140,11 @@ def _in_bounds(values: Any, form: str) -> bool:
     return whole and float(np.abs(array[good]).max(initial=0.0)) <= LARGEST
 
 
-def _case(dataset: xr.Dataset) -> Mapping[str, Any]:
-    """Return the tables of the case that a result is of; nothing where its text cannot be read."""
+def _tables(dataset: xr.Dataset, *names: str) -> Mapping[str, Any]:
+    """Return the tables of the first text that a result has of these; nothing where it cannot be read."""
+    text = next((dataset.attrs[name] for name in names if name in dataset.attrs), "")
     try:
-        return toml.parse(str(dataset.attrs.get("case", "")))
+        return toml.parse(str(text))
     except ValueError:
         return {}
 

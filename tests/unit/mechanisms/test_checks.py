@@ -1,4 +1,4 @@
-"""Every self-check speaks from its threshold on and not before, for the mechanism and for the journal."""
+"""Every self-check speaks from its threshold on and not before."""
 
 from __future__ import annotations
 
@@ -30,7 +30,6 @@ from tribodyn.mechanisms.checks import (
 )
 from tribodyn.papers.cheng_2022.reduced import checks
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
-from tribodyn.presets.journal import checks as journal_checks
 
 T_END = 2.0
 PEAK = 0.7503
@@ -86,17 +85,6 @@ def of_vsv(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str
     return checks.warnings(vsv, found, *residuals, T_END, cost, instant(PEAK, np.array([0.0, 0.75]), 0.01))
 
 
-def of_journal(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
-    found = {
-        "separation_least": seen["depth"] * vsv.joint.roughness,
-        "tensile_clip_time": seen["clipped"] * T_END,
-    }
-    numbers = {"residual": seen["energy"], "grid_error": seen["grid"], "t_end": T_END}
-    return journal_checks.warnings(
-        found, vsv.joint, loading(seen), **numbers, statistics=cost, when=instant(PEAK)
-    )
-
-
 def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list[str]:
     joint, entry = vsv.joint, vsv.joint.entry
     pin = Clearance(
@@ -127,7 +115,7 @@ def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
     )
 
 
-EVERY = [of_vsv, of_journal, of_general]
+EVERY = [of_vsv, of_general]
 
 
 @pytest.mark.parametrize("told", EVERY)

@@ -17,6 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.results.attributes import MODEL
 
 Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
 """Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3)."""
@@ -28,7 +29,7 @@ _FLAT: Final = 0.2
 
 def case_of(dataset: xr.Dataset) -> MechanismCase | None:
     """Return the case of a result; nothing where its text is not (or no longer) one of a mechanism."""
-    return _case_of(str(dataset.attrs.get("case", "")))
+    return _case_of(str(dataset.attrs.get(MODEL) or dataset.attrs.get("case", "")))
 
 
 @lru_cache(maxsize=1)

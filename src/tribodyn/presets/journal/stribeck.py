@@ -6,57 +6,32 @@ with speed as its shear does. In between, in mixed lubrication, friction is leas
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from typing import Final
 
 import numpy as np
+import xarray as xr
 
+from tribodyn.cases.case import Case
+from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.presets.journal.equilibrium import Equilibrium, equilibrium
-from tribodyn.presets.journal.parameters import Journal
+from tribodyn.presets.journal.case import JournalCase
+from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, equilibrium
+from tribodyn.presets.journal.system import journal_of
+
+VISCOSITY: Final = "film.viscosity"
+_SPEEDS: Final = np.geomspace(1.0, 1000.0, 31)
+_COLUMNS: Final = {
+    "friction_coefficient": ("1", "friction moment over radius and load"),
+    "film_share": ("1", "share of the load that the film carries"),
+    "contact_share": ("1", "share of the load that asperities carry"),
+    "eccentricity": ("m", "distance of the centre from the axis of the bushing"),
+}
 
 
-@dataclass(frozen=True)
-class Stribeck:
-    """Static equilibria of a journal over its speed.
-
-    Attributes
-    ----------
-    points
-        The equilibria, in the order of the speeds asked for.
-    """
-
-    points: tuple[Equilibrium, ...]
-
-    @property
-    def speed(self) -> FloatArray:
-        """Speed of rotation [rad/s], shape (n,)."""
-        return np.array([point.journal.speed for point in self.points])
-
-    @property
-    def friction_coefficient(self) -> FloatArray:
-        """Friction moment over radius and load [1], shape (n,)."""
-        return np.array([point.friction_coefficient for point in self.points])
-
-    @property
-    def film_share(self) -> FloatArray:
-        """Share of the load that the film carries [1], shape (n,)."""
-        return np.array([point.film_share for point in self.points])
-
-    @property
-    def contact_share(self) -> FloatArray:
-        """Share of the load that asperities carry [1], shape (n,)."""
-        return np.array([point.contact_share for point in self.points])
-
-    @property
-    def eccentricity(self) -> FloatArray:
-        """Distance of the centre from the axis of the bushing [m], shape (n,)."""
-        return np.array([point.eccentricity for point in self.points])
-
-
-def stribeck(journal: Journal, speeds: Iterable[float]) -> Stribeck:
-    """Return the Stribeck curve of a journal; each equilibrium starts from the one before.
+def equilibria(journal: Journal, speeds: Iterable[float]) -> list[Equilibrium]:
+    """Return the static equilibria of a journal over its speed; each starts from the one before.
 
     Parameters
     ----------
@@ -78,4 +53,58 @@ def stribeck(journal: Journal, speeds: Iterable[float]) -> Stribeck:
     for speed in speeds:
         guess = points[-1].attitude if points else None
         points.append(equilibrium(journal, speed=float(speed), guess=guess))
-    return Stribeck(tuple(points))
+    return points
+
+
+def stribeck(
+    case: Case, speeds: Iterable[float] | None = None, *, viscosity: Sequence[object] = ()
+) -> xr.Dataset:
+    """Return the friction of a loaded journal in oil over its speed, and who carries the load.
+
+    Parameters
+    ----------
+    case
+        A lubricated journal with friction: ``journal-oil`` with a ``joint.friction_coefficient``.
+    speeds
+        Speeds of rotation [rad/s], neighbours near each other; by default 31 from 1 to 1000.
+    viscosity
+        Viscosities to draw a curve for, as a case file has them; by default that of the case.
+
+    Returns
+    -------
+    xarray.Dataset
+        Friction coefficient, shares of film and asperities and eccentricity over ``viscosity`` [Pa s] and
+        ``speed`` [rad/s].
+
+    Raises
+    ------
+    InputError
+        The case has no film, no friction or no load, or there is no equilibrium at one of the speeds.
+    """
+    if not isinstance(case, JournalCase) or not case.film.lubricated:
+        raise InputError(
+            "a Stribeck curve needs a journal in oil: journal-oil, or film.lubricated = true", key="case"
+        )
+    if case.joint.friction_coefficient == 0.0:
+        raise InputError(
+            "without friction of the asperities there is no Stribeck curve: give one, such as 0.1",
+            key="joint.friction_coefficient",
+        )
+    places: FloatArray = _SPEEDS if speeds is None else np.array(list(speeds), dtype=np.float64)
+    cases = [case.replace({VISCOSITY: value}) for value in viscosity] or [case]
+    curves = [equilibria(journal_of(one), places) for one in cases]
+    columns = {
+        name: (
+            ("viscosity", "speed"),
+            np.array([[getattr(point, name) for point in points] for points in curves]),
+            {"units": unit, "long_name": words},
+        )
+        for name, (unit, words) in _COLUMNS.items()
+    }
+    viscosities = [one.film.viscosity for one in cases]
+    coordinates = {
+        "speed": ("speed", places, {"units": "rad/s", "long_name": "speed of rotation"}),
+        "viscosity": ("viscosity", viscosities, {"units": "Pa s", "long_name": "viscosity"}),
+    }
+    names = [from_si(value, "mPa s") for value in viscosities]
+    return xr.Dataset(columns, coordinates, {"title": f"{case.title}: Stribeck curve", "viscosity": names})

@@ -6,12 +6,10 @@ import math
 from dataclasses import replace
 from typing import Final
 
-from tribodyn.kernels.joints.surface.quantities import N_REPORT
 from tribodyn.mechanism.workload import workload as of_mechanism
 from tribodyn.mechanisms.workload import Keys, Workload
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.model import mechanism_of
-from tribodyn.presets.journal.rows import layout_of
 
 _OF_REBOUND: Final = 35.0
 """Steps of a rebound, measured with ``journal-dry``: 834 steps in 24 rebounds."""
@@ -25,17 +23,11 @@ _IN_OIL: Final = (200.0, 0.1)
 
 def workload(case: JournalCase) -> Workload:
     """Return the counts of a case."""
-    mechanism = mechanism_of(case)
-    found = of_mechanism(mechanism)
-    return replace(
-        found,
-        steps=_steps(case),
-        fields=0.0,
-        quantities=float(layout_of(mechanism).size + N_REPORT),
-        # A level film is solved on half its length.
-        band=found.band if case.journal.tilt or not found.cells else 0.5 * case.film.grid.z + 1.0,
-        keys=Keys(),
-    )
+    found = of_mechanism(mechanism_of(case))
+    # A level film is solved on half its length.
+    level = found.cells and not case.journal.tilt
+    band = 0.5 * case.film.grid.z + 1.0 if level else found.band
+    return replace(found, steps=_steps(case), band=band, keys=Keys())
 
 
 def _steps(case: JournalCase) -> float:

@@ -40,19 +40,17 @@ def oil() -> xr.Dataset:
 
 def test_two_laws_are_two_runs_that_part_at_the_contact(dry: xr.Dataset, undamped: xr.Dataset) -> None:
     assert dry["e_x"].dims == ("time",)
-    assert dry["rebounds"].dims == ()
     assert dry.sizes["time"] == 201
     assert dry["time"].values[-1] == pytest.approx(0.4e-3)
     assert dry.attrs["kind"] == "journal"
     free = dry["time"].values < 0.15e-3
     assert dry["e_x"].values[free] == pytest.approx(undamped["e_x"].values[free], rel=1e-6)
-    # Total and stiffness part are the same sums, contracted differently: rounding of some thousand newtons.
-    assert float(abs(undamped["F_dx"]).max()) < 1e-9
-    assert float(abs(dry["F_dx"]).max()) > 1000.0
+    assert float(undamped["energy_damping"][-1]) == 0.0
+    assert float(dry["energy_damping"][-1]) > 1e-4
 
 
 def test_film_variables_are_there_with_oil_only(dry: xr.Dataset, oil: xr.Dataset) -> None:
-    film = {"F_ox", "F_oy", "M_ox", "M_oy", "M_of", "energy_film", "film_force_peak"}
+    film = {"F_ox", "F_oy", "M_of", "energy_film", "film_force_peak"}
     assert not film & set(dry.variables)
     assert film <= set(oil.variables)
     assert set(oil.variables) <= set(VARIABLES) | set(MECHANISMS["journal"].variables)
@@ -77,7 +75,7 @@ def test_a_result_survives_the_disk(oil: xr.Dataset, tmp_path: Path) -> None:
 
 def test_the_same_case_gives_the_same_numbers(oil: xr.Dataset) -> None:
     again = simulate("journal-oil")
-    assert all(np.array_equal(again[name], oil[name], equal_nan=True) for name in ("e_x", "F_ox", "rebounds"))
+    assert all(np.array_equal(again[name], oil[name], equal_nan=True) for name in ("e_x", "F_ox"))
 
 
 def test_an_interrupted_run_keeps_what_it_has() -> None:

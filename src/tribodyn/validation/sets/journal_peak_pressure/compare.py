@@ -15,8 +15,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.lubrication import FilmState, film_state
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.equilibrium import equilibrium
-from tribodyn.presets.journal.parameters import Journal
+from tribodyn.presets.journal.equilibrium import Journal, equilibrium
 from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet

@@ -12,7 +12,7 @@ from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.stribeck import stribeck
+from tribodyn.presets.journal.stribeck import equilibria
 from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
@@ -81,7 +81,7 @@ def curve(given: Mapping[str, float]) -> FloatArray:
         "loads.force_y": "0 N",
     }
     journal = journal_of(cast(JournalCase, load_case("journal-oil").replace(keys)))
-    return stribeck(journal, np.radians(6.0 * SPEEDS)).friction_coefficient
+    return np.array([point.friction_coefficient for point in equilibria(journal, np.radians(6.0 * SPEEDS))])
 
 
 def shape(friction: FloatArray) -> FloatArray:
