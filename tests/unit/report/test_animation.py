@@ -102,6 +102,6 @@ def test_what_cannot_be_shown_is_refused(
             result.tribodyn.animate(tmp_path / name, seconds=seconds)
     with pytest.raises(InputError, match="no motion to show"):
         result.isel(time=[0]).tribodyn.animate(tmp_path / "run.gif")
-    with pytest.raises(InputError, match='kind "sweep" has no animation'):
-        xr.Dataset(attrs={"kind": "sweep"}).tribodyn.animate(tmp_path / "run.gif")
+    with pytest.raises(InputError, match='kind "vsv" has no animation'):
+        xr.Dataset(attrs={"kind": "vsv"}).tribodyn.animate(tmp_path / "run.gif")
     assert not list(tmp_path.iterdir())

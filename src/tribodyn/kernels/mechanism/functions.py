@@ -13,7 +13,6 @@ from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.joints.film import note_film_peaks
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.memory import note_peaks
-from tribodyn.kernels.joints.surface.quantities import N_REPORT, Report
 from tribodyn.kernels.mechanism import ledger
 from tribodyn.kernels.mechanism.bodies import rates
 from tribodyn.kernels.mechanism.data import (
@@ -144,17 +143,6 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: MechanismData, memory
 def observe(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, row: FloatArray) -> None:
     """Fill ``row``, see ``kernels/mechanism/quantities.py``, with what stands settled since ``advance``."""
     fill_row(data, memory, row)
-
-
-@entry
-def observe_surfaces(
-    t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, row: FloatArray
-) -> None:
-    """Fill ``row`` as :func:`observe` does, and behind it the reports of all surfaces of joints."""
-    first = row.size - N_REPORT * memory.contact.reports.size
-    fill_row(data, memory, row[:first])
-    for s in range(memory.contact.reports.size):
-        row[first + s * N_REPORT : first + (s + 1) * N_REPORT].view(Report)[0] = memory.contact.reports[s]
 
 
 @entry

@@ -45,5 +45,3 @@ PEAKS: Final = (
 
 Report = of_table(REPORTED)
 Peaks = of_table(PEAKS)
-N_REPORT: Final = Report.itemsize // 8
-"""Numbers in a report."""
