@@ -213,7 +213,7 @@ def test_a_damaged_result_is_not_drawn(copy: Path, capfd: pytest.CaptureFixture[
 def test_a_summary_that_is_not_of_the_result_is_written_again(
     copy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("tribodyn.cli.report.draw", lambda *_, **__: None)
+    monkeypatch.setattr("tribodyn.cli.commands.report.draw", lambda *_, **__: None)
     summary, case = copy / "summary.json", copy / "case.toml"
     other = json.dumps(json.loads(summary.read_text(encoding="utf-8")) | {"contact_force_max_N": 1.0})
     for content in ('{"title": "Var', other, None):

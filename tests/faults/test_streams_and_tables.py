@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.cli.main import BAD_INPUT, main
-from tribodyn.core import machine
+from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.studies.local import _affordable
@@ -57,7 +57,7 @@ def test_the_end_of_the_terminal_saves_a_run(tmp_path: Path) -> None:
 
 def test_open_files_without_a_limit_allow_all_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(resource, "getrlimit", lambda _: (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
-    assert machine.free_handles() > 10**6
+    assert platforms.free_handles() > 10**6
     assert _affordable(7, lambda text: None) == 7
 
 

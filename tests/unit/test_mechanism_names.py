@@ -11,8 +11,8 @@ from tribodyn.mechanisms.catalogue import FOLDERS
 
 SOURCE = Path(__file__).parents[2] / "src" / "tribodyn"
 CATALOGUE = SOURCE / "mechanisms" / "catalogue.py"
-EXAMPLES = SOURCE / "cli" / "main.py"
-"""The help of the command line shows examples."""
+EXAMPLE = SOURCE / "cli" / "commands" / "stribeck.py"
+"""The help of a command for films shows a built-in case with one."""
 ORDINARY = ("mechanism",)
 """Names that are words of prose, too: an import is what counts."""
 PRESETS = {"mechanism": {"presets"}}
@@ -28,7 +28,7 @@ def test_no_mechanism_is_named_outside_its_folders(name: str) -> None:
         str(path.relative_to(SOURCE))
         for path in SOURCE.rglob("*.py")
         if name not in path.relative_to(SOURCE).parts
-        and path not in (CATALOGUE, EXAMPLES, PUBLIC)
+        and path not in (CATALOGUE, EXAMPLE, PUBLIC)
         and not {"papers", "validation", *PRESETS.get(name, ())} & set(path.relative_to(SOURCE).parts)
         and word.search(path.read_text(encoding="utf-8"))
     ]

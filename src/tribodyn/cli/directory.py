@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from tribodyn.cli.interrupt import on_leaving
+from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -86,22 +87,19 @@ class OutputDirectory:
         """
         from tribodyn.results.atomic import remove_stale_parts
 
-        handle = os.open(self.path, os.O_RDONLY)
-        try:
-            locked = _locked(handle)
-            if locked is False:
+        with platforms.locked(self.path) as mine:
+            if mine is False:
                 raise _refused(os.fspath(self.path), "another tribodyn is writing results there")
             self._reserved = True
-            for folder in self._written():
-                remove_stale_parts(folder, alone=bool(locked))
             try:
+                for folder in self._written():
+                    remove_stale_parts(folder, alone=bool(mine))
                 yield
             except BaseException:
                 self._forget()
                 raise
-        finally:
-            self._reserved = False
-            os.close(handle)
+            finally:
+                self._reserved = False
 
     @property
     def checkpoint(self) -> Path:
@@ -130,21 +128,6 @@ class OutputDirectory:
         """Return report and figures that are there."""
         figures = self.path / FIGURES
         return [*self.path.glob(REPORT), *figures.glob("*.png"), *figures.glob("*.pdf")]
-
-
-def _locked(handle: int) -> bool | None:
-    """Lock an open folder; False when another process has, None where the file system has no locks."""
-    try:
-        import fcntl
-    except ImportError:
-        return None
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        return None
-    return True
 
 
 def _missing_parents(path: Path) -> list[Path]:

@@ -19,11 +19,12 @@ from dataclasses import dataclass, field
 from types import FrameType
 from typing import Final
 
-_HANGUP: Final = (signal.SIGHUP,) if sys.platform != "win32" else ()
+from tribodyn.core.platforms import HANGUP
+
 _SIGNALS: Final = (
     *(signal.SIGINT, signal.SIGTERM),
     # The end of the terminal; what was started with nohup ignores it, and goes on.
-    *(number for number in _HANGUP if signal.getsignal(number) is not signal.SIG_IGN),
+    *(number for number in HANGUP if signal.getsignal(number) is not signal.SIG_IGN),
 )
 _STANDARD_ERROR: Final = 2
 _FAILED: Final = 1

@@ -11,7 +11,8 @@ import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Final, NoReturn, Protocol, cast
 
-from tribodyn.cli import completion, log
+from tribodyn.cli import log
+from tribodyn.cli.commands import completion
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
@@ -24,6 +25,8 @@ class Command(Protocol):
     """A module that is one sub-command."""
 
     HELP: str
+    EXAMPLE: str
+    """End of its help."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, /) -> None:
         """Declare the arguments after the name of the command."""
@@ -33,7 +36,7 @@ class Command(Protocol):
 
 
 class _Modules(Mapping[str, Command]):
-    """Modules beside this one, each imported when it is first asked for."""
+    """Modules in ``commands``, each imported when it is first asked for."""
 
     def __init__(self, *names: str) -> None:
         self._names = names
@@ -41,7 +44,7 @@ class _Modules(Mapping[str, Command]):
     def __getitem__(self, name: str) -> Command:
         if name not in self._names:
             raise KeyError(name)
-        return cast(Command, importlib.import_module(f"tribodyn.cli.{name}"))
+        return cast(Command, importlib.import_module(f"tribodyn.cli.commands.{name}"))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -55,37 +58,14 @@ COMMANDS: Final = _Modules(
     *("report", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
     *("compile", "completion"),
 )
-"""All sub-commands: a new one is a module beside this one and a name here."""
+"""All sub-commands: a new one is a module in ``commands`` and a name here."""
 
-_EXAMPLES: Final = {
-    "run": "tribodyn run vsv --set joint.clearance='25 um' -o wide",
-    "cases": "tribodyn cases",
-    "new": "tribodyn new slider-crank mine.toml",
-    "show": "tribodyn show vsv > mine.toml",
-    "check": "tribodyn check vsv --deep",
-    "sweep": "tribodyn sweep vsv --vary joint.clearance='20 um:40 um:5 um' --workers 2",
-    "find": "tribodyn find vsv --vary joint.clearance=10..60um --until vane_angle_error_max_deg=0.03",
-    "contributions": "tribodyn contributions vsv-joints",
-    "fit": "tribodyn fit vsv --data run.csv --vary joint.clearance=10..60um",
-    "workbench": "tribodyn workbench vsv --set joint.clearance='25 um'",
-    "report": "tribodyn report results-vsv",
-    "compare": "tribodyn compare results-vsv wide",
-    "reproduce": "tribodyn reproduce fig9 claims",
-    "validate": "tribodyn validate oblique_impact -o out/validation",
-    "surface": "tribodyn surface scan.csv --unit um --spacing '0.5 um'",
-    "materials": "tribodyn materials ptfe-liner bronze-c93200",
-    "stribeck": "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'",
-    "bounce": "tribodyn bounce vsv --law rsdc",
-    "compile": "tribodyn compile vsv slider-crank.toml",
-    "completion": "tribodyn completion bash",
-}
-"""End of the help of each command."""
 _EPILOG: Final = """\
 examples:
-  tribodyn run vsv
-  tribodyn run vsv --set joint.clearance="25 um" -o wide
+  tribodyn run slider-crank
+  tribodyn run slider-crank --set joints.wrist.clearance.radial="25 um" -o wide
   tribodyn new slider-crank mine.toml && tribodyn run mine.toml
-  tribodyn sweep vsv --vary joint.clearance="20 um:40 um:5 um" --vary mechanism.formulation=exact,paper
+  tribodyn sweep slider-crank --vary joints.wrist.clearance.radial="20 um:40 um:5 um"
 
 exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, nothing is written
 """
@@ -158,7 +138,7 @@ def _parser(names: Iterable[str]) -> _Parser:
             name,
             help=command.HELP,
             description=command.HELP,
-            epilog=f"example: {_EXAMPLES.get(name, f'tribodyn {name} --help')}",
+            epilog=f"example: {command.EXAMPLE}",
             allow_abbrev=False,
         )
         below.set_defaults(parser=below)

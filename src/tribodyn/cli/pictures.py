@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from argparse import ArgumentParser
 from collections.abc import Callable, Iterator
@@ -48,9 +47,9 @@ def _meanwhile(work: Callable[[], object]) -> Iterator[None]:
     """Have another process do something while the block runs; where none can, this one does it then."""
     from multiprocessing import get_context
 
-    from tribodyn.core.machine import processors
+    from tribodyn.core.platforms import FORKS, processors
 
-    if sys.platform != "linux" or processors() < 2:
+    if not FORKS or processors() < 2:
         yield
         work()
         return

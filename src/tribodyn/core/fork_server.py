@@ -13,21 +13,17 @@ from __future__ import annotations
 import json
 import multiprocessing
 import os
-import signal
-import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
+from tribodyn.core.platforms import METHOD, start_context, uninterrupted
+
 if TYPE_CHECKING:
-    from multiprocessing.context import ForkServerContext, SpawnContext
     from multiprocessing.process import BaseProcess
 
-# In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
-METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
-"""Start method of processes, as :mod:`multiprocessing` calls it."""
 # The threads of a worker would only take time from the other workers. Without the safe path these processes
 # would import modules from the working directory, where a file may have the name of any module.
 # What a case frees, the next one needs again: returned to the system it costs a page fault for every 4 kB.
@@ -64,8 +60,8 @@ def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = Mappin
             # Which the server would start, and which lets signals through again when it has begun.
             resource_tracker.ensure_running()
         given = json.dumps({"name": name, "toml": toml, "changes": dict(changes)})
-        _context().set_forkserver_preload([*_MODULES])
-        with _set(ENVIRONMENT | ({_CASE: given} if len(given) < _LONGEST else {})), _uninterrupted():
+        forkserver.set_forkserver_preload([*_MODULES])
+        with _set(ENVIRONMENT | ({_CASE: given} if len(given) < _LONGEST else {})), uninterrupted():
             forkserver.ensure_running()
 
 
@@ -83,7 +79,7 @@ def process(function: Callable[..., None], *arguments: Any) -> BaseProcess:
     function, arguments
         What it calls: a function of a module, and what that is given.
     """
-    made = _context().Process(target=function, args=arguments, daemon=True)
+    made = start_context().Process(target=function, args=arguments, daemon=True)
     with _set(ENVIRONMENT):
         made.start()
     return made
@@ -99,22 +95,6 @@ def _end_with_parent() -> None:
     assert parent is not None
     parent.join()
     os._exit(1)
-
-
-def _context() -> ForkServerContext | SpawnContext:
-    if METHOD == "forkserver":
-        return multiprocessing.get_context("forkserver")
-    return multiprocessing.get_context("spawn")
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Hold back Ctrl-C, which is for the command: a process started meanwhile never hears it."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

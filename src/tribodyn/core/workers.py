@@ -10,16 +10,14 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
-import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from pathlib import Path
 from typing import Final, TypeAlias
 
-from tribodyn.core import fork_server
+from tribodyn.core import fork_server, platforms
 from tribodyn.core.errors import TribodynError
 
 DEATHS: Final = 2
@@ -123,23 +121,10 @@ def _serve(connection: Connection, service: Service) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     fork_server.end_with_parent()
     if service.memory is not None:
-        _limit_memory(service.memory)
+        platforms.limit_memory(service.memory)
     if service.prepare is not None:
         service.prepare()
     with suppress(EOFError, OSError):
         while True:
             if (reply := service.answer(connection.recv_bytes(), connection)) is not None:
                 connection.send_bytes(reply)
-
-
-def _limit_memory(more: int) -> None:
-    """Let the address space of this process grow by so many bytes and no further."""
-    if sys.platform != "linux":
-        return
-    import resource
-
-    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
-    most = pages * resource.getpagesize() + more
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    if hard == resource.RLIM_INFINITY or most < hard:
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))

@@ -10,6 +10,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
+from tribodyn.core.platforms import flush_folder
+
 _STALE: Final = 3600.0
 """Age [s] from which a temporary file is what a killed process left: none takes so long to write."""
 
@@ -33,7 +35,7 @@ def replacing(path: Path) -> Iterator[Path]:
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
-    _flush_folder(path.parent)
+    flush_folder(path.parent)
 
 
 def stage(path: Path, *content: bytes | memoryview) -> Path:
@@ -68,7 +70,7 @@ def adopt(part: Path, path: Path) -> None:
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
-    _flush_folder(path.parent)
+    flush_folder(path.parent)
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -118,13 +120,13 @@ def write_together(contents: Mapping[Path, Sequence[bytes | memoryview]], stale:
             parts[path] = stage(path, *content)
         for path in (*list(parts)[1:], *stale):
             path.unlink(missing_ok=True)
-        _flush_folder(folder)
+        flush_folder(folder)
         for path, part in parts.items():
             os.replace(part, path)
     finally:
         for part in parts.values():
             part.unlink(missing_ok=True)
-    _flush_folder(folder)
+    flush_folder(folder)
 
 
 def remove_stale_parts(folder: Path, *, alone: bool = False) -> None:
@@ -153,14 +155,3 @@ def _flush(path: Path) -> None:
     """Wait until the content of a file is on the disk."""
     with path.open("r+b") as stream:
         os.fsync(stream.fileno())
-
-
-def _flush_folder(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk, where the system offers it."""
-    if not hasattr(os, "O_DIRECTORY"):
-        return
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.core.errors import Stopped
-from tribodyn.core.machine import processors
+from tribodyn.core.platforms import processors
 from tribodyn.core.stopping import ask
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from statistics import fmean
 from typing import Final
 
-from tribodyn.core.machine import processors
+from tribodyn.core.platforms import processors
 from tribodyn.simulation import estimate
 from tribodyn.simulation.costs import MOST_MEMORY, MOST_TIME, PROGRAM, in_bytes, in_time
 from tribodyn.studies.plan import SweepPlan

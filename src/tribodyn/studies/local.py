@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from typing import Any, Final
 
-from tribodyn.core import fork_server, machine
+from tribodyn.core import fork_server, platforms
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.core.workers import DEATHS, DIED, UNREADY, Service, WorkerProcess
@@ -43,7 +43,7 @@ def local(job: SweepJob, workers: int | None) -> Finished:
     TribodynError
         Processes die before they compute anything.
     """
-    size = _affordable(min(workers or machine.processors(), len(job.points)), job.note)
+    size = _affordable(min(workers or platforms.processors(), len(job.points)), job.note)
     fork_server.start(toml=job.points[0].toml)
     own = version("tribodyn")
     with started(size) as workforce:
@@ -58,7 +58,7 @@ def local(job: SweepJob, workers: int | None) -> Finished:
 
 def _affordable(workers: int, note: Callable[[str], None]) -> int:
     """Return the largest number of workers among so many, for each takes handles of this process."""
-    free = machine.free_handles() - _OTHER_HANDLES
+    free = platforms.free_handles() - _OTHER_HANDLES
     room = free // _HANDLES
     if room < 1:
         raise InputError(

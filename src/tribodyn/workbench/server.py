@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import ctypes
 import errno
 import logging
 import os
 import secrets
 import socket
-import sys
 import tempfile
 import webbrowser
 from collections.abc import Callable, Iterator, Sequence
@@ -19,7 +17,7 @@ from typing import Final
 
 from tornado.httpserver import HTTPServer
 
-from tribodyn.core import machine
+from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
 from tribodyn.workbench.access import TOKEN, AccessControl, Endpoint, UserSession
 from tribodyn.workbench.handlers import ServerContext, application, assets
@@ -27,24 +25,6 @@ from tribodyn.workbench.server_state import Rules, ServerState
 from tribodyn.workbench.variant import Origin
 from tribodyn.workbench.work import Limits
 from tribodyn.workbench.worker_pool import WorkerPool
-
-_MMAP_THRESHOLD: Final = -3
-"""Parameter of ``mallopt``: the size from which a block comes from the system and goes back there."""
-_LARGE: Final = 131_072
-"""The size that glibc begins with [bytes]."""
-
-
-def give_back_large_blocks() -> None:
-    """Have every large block of this process taken from the system, and given back when it is free.
-
-    glibc raises this size to that of the largest block that was ever freed. From then on pictures share its
-    heap, where those of other sizes do not fit into the gaps that forgotten ones leave: of 100 MB that are
-    kept it made 190 MB. Elsewhere than with glibc nothing is done.
-    """
-    if sys.platform == "linux":
-        with suppress(AttributeError, OSError):
-            ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, _LARGE)
-
 
 ADDRESS: Final = "127.0.0.1"
 _ADDRESS_6: Final = "::1"
@@ -61,7 +41,7 @@ _MOST_WORKERS: Final = 4
 
 def workers() -> int:
     """Return the number of workers by default."""
-    return min(max(machine.processors(), _WORKERS), _MOST_WORKERS)
+    return min(max(platforms.processors(), _WORKERS), _MOST_WORKERS)
 
 
 def own_name() -> str:
@@ -69,9 +49,9 @@ def own_name() -> str:
 
     Browsers send a cookie to every port of the name that it came from. Whoever else serves something on this
     machine would be sent ours under a name that he knows. Every name that ends in ``.localhost`` means this
-    machine; only on macOS do browsers ask the system, which does not know it.
+    machine, where browsers do not ask the system.
     """
-    return ADDRESS if sys.platform == "darwin" else f"{secrets.token_hex(_NAME_BYTES)}.localhost"
+    return f"{secrets.token_hex(_NAME_BYTES)}.localhost" if platforms.KNOWS_LOCAL_NAMES else ADDRESS
 
 
 def listening(port: int) -> list[socket.socket]:
@@ -160,7 +140,7 @@ async def serve(
 ) -> None:
     """Serve pages until ``stop`` is true; see :func:`attended`."""
     _silence()
-    give_back_large_blocks()
+    platforms.give_back_large_blocks()
     context = ServerContext(state, endpoint, session, assets(), log_error)
     server = HTTPServer(
         AccessControl(endpoint, session, application(context)),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cli.completion import SHELLS
+from tribodyn.cli.commands.completion import SHELLS
 from tribodyn.cli.main import main
 
 

@@ -393,7 +393,7 @@ def test_two_processes_share_the_figures_and_one_makes_up_for_the_other(
 ) -> None:
     from tribodyn.cli import pictures
 
-    monkeypatch.setattr("tribodyn.core.machine.processors", lambda: processors)
+    monkeypatch.setattr("tribodyn.core.platforms.processors", lambda: processors)
     here = os.getpid()
 
     def draw_all(dataset: xr.Dataset, directory: Path, part: slice) -> None:

@@ -13,7 +13,7 @@ PROGRAM = f"""
 import random
 from collections import deque
 import psutil
-from tribodyn.workbench.server import give_back_large_blocks
+from tribodyn.core.platforms import give_back_large_blocks
 give_back_large_blocks()
 source, process = random.Random(1), psutil.Process()
 kept, others = deque(maxlen={KEPT}), []

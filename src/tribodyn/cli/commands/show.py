@@ -11,6 +11,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 HELP = "print a case with every key explained, as TOML; `show mechanism` lists all keys of such a case"
+EXAMPLE = "tribodyn show slider-crank > mine.toml"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 
 HELP = "make the figures of the source paper, and judge its claims"
+EXAMPLE = "tribodyn reproduce fig9 claims"
 CLAIMS: Final = "claims"
 ENSEMBLE: Final = "ensemble"
 ALL: Final = "all"

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from tribodyn.validation.catalogue import ValidationSet
 
 HELP = "compare with measured data: measured and computed values, uncertainties, verdicts"
+EXAMPLE = "tribodyn validate oblique_impact -o out/validation"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.progress import CASES, progress
 from tribodyn.core.errors import TribodynError
-from tribodyn.core.machine import processors
+from tribodyn.core.platforms import processors
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
 
 HELP = "compile the equations of cases ahead of their first run"
+EXAMPLE = "tribodyn compile slider-crank.toml"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

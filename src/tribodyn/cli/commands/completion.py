@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tribodyn.cases.keys import Key
 
 HELP = 'print what lets a shell complete commands, keys and values: eval "$(tribodyn completion bash)"'
+EXAMPLE = "tribodyn completion bash"
 SHELLS: Final = ("bash", "zsh", "fish")
 ASKING: Final = "_ARGCOMPLETE"
 """In the environment of a command that a shell asks for completions."""
@@ -111,6 +112,6 @@ COMPLETERS: Final[dict[str, Callable[..., list[str]]]] = {
     "law": _names("tribodyn.contact", "LAWS"),
     "names": _names("tribodyn.cases.materials", "MATERIALS"),
     "template": _templates,
-    "shell": _names("tribodyn.cli.completion", "SHELLS"),
+    "shell": _names("tribodyn.cli.commands.completion", "SHELLS"),
 }
 """Completers of arguments, by their names in the parser; choices and files complete themselves."""

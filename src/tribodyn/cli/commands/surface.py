@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from tribodyn.surfaces import MeasuredSurface, Scan, Treatment
 
 HELP = "roughness, asperities and their dependence on the cut-offs from a measured profile or map"
+EXAMPLE = "tribodyn surface scan.csv --unit um --spacing '0.5 um'"
 _DOCUMENT, _BLOCK, _FIGURE = "surface.json", "asperities.toml", "surface.png"
 
 

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from tribodyn.studies.sweep import Arrival
 
 HELP = "find the last value of a parameter at which a key result keeps a limit"
+EXAMPLE = (
+    "tribodyn find slider-crank --vary joints.wrist.clearance.radial=10..60um --until error_rms_um_slider=20"
+)
 _STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 

@@ -10,6 +10,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 HELP = "write a case file to start from; without a name, list the templates"
+EXAMPLE = "tribodyn new slider-crank mine.toml"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

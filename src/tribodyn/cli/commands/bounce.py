@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from tribodyn.mechanisms.bushing import Bearing
 
 HELP = "drop the shaft on every contact law and damping factor, and show which restitution comes out"
+EXAMPLE = "tribodyn bounce slider-crank --law rsdc"
 _COLUMNS = ("wanted", "point", "plate", "shaft")
 
 

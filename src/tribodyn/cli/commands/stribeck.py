@@ -11,6 +11,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 HELP = "print the Stribeck curve of a shaft in oil: friction over the speed, and who carries the load"
+EXAMPLE = "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

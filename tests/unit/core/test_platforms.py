@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.core import machine
+from tribodyn.core import platforms
 
 
 @pytest.mark.parametrize(
@@ -18,16 +18,16 @@ def test_a_container_may_use_less_than_the_machine_has(
     monkeypatch.setattr("os.sched_getaffinity", lambda _: range(8), raising=False)
     monkeypatch.setattr("os.cpu_count", lambda: 8)
     quota = tmp_path / "cpu.max"
-    monkeypatch.setattr(machine, "_QUOTA", quota)
-    assert machine.processors() == 8
+    monkeypatch.setattr(platforms, "_QUOTA", quota)
+    assert platforms.processors() == 8
     quota.write_text(f"{said}\n", encoding="ascii")
-    assert machine.processors() == allowed
+    assert platforms.processors() == allowed
 
 
 def test_every_open_file_is_counted() -> None:
-    before = machine.free_handles()
+    before = platforms.free_handles()
     with ExitStack() as stack:
         for _ in range(5):
             stack.enter_context(open(__file__, encoding="utf-8"))
-        assert machine.free_handles() == before - 5
-    assert machine.free_handles() == before
+        assert platforms.free_handles() == before - 5
+    assert platforms.free_handles() == before

@@ -15,6 +15,7 @@ from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
 
 HELP = "open a page with sliders for the values of a case and live plots"
+EXAMPLE = "tribodyn workbench slider-crank --set joints.wrist.clearance.radial='25 um'"
 _CLOSING: Final = "closing the workbench"
 _PORTS: Final = 65535
 _MOST_WORKERS: Final = 256

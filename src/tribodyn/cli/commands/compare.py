@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tribodyn.report import ComparedRun, RunDifferences
 
 HELP = "several runs in one report: what differs, and their curves over each other"
+EXAMPLE = "tribodyn compare results-slider-crank wide"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from tribodyn.cases import Case
 
 HELP = "simulate a case; results, figures and a report go to a directory"
+EXAMPLE = "tribodyn run slider-crank --set joints.wrist.clearance.radial='25 um' -o wide"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

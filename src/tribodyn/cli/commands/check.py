@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from tribodyn.simulation.costs import Estimate
 
 HELP = "validate a case file without running it"
+EXAMPLE = "tribodyn check slider-crank --deep"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tribodyn.studies.measured import Experiment
 
 HELP = "fit keys of a case to measured data: values, intervals, and what the data determine"
+EXAMPLE = "tribodyn fit slider-crank --data run.csv --vary joints.wrist.clearance.radial=10..60um"
 _WITH: Final = " with "
 _BETWEEN: Final = re.compile(r",(?=\s*[A-Za-z_][\w.-]*\s*=)")
 

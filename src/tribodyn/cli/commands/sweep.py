@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from tribodyn.studies import Arrival, Means, SweepPlan, Tls
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
+EXAMPLE = "tribodyn sweep slider-crank --vary joints.wrist.clearance.radial='20 um:40 um:5 um' --workers 2"
 _STOPPING: Final = "stopping; finished points are kept; interrupt again to leave at once"
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 HELP = "build figures and the HTML report again from stored results"
+EXAMPLE = "tribodyn report results-slider-crank"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -7,6 +7,7 @@ from argparse import ArgumentParser, Namespace
 from tribodyn.cli.console import show_json
 
 HELP = "list the built-in cases"
+EXAMPLE = "tribodyn cases"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from tribodyn.studies import OutputShares
 
 HELP = "divide the error of each output among the joints with clearance"
+EXAMPLE = "tribodyn contributions four-bar"
 _STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 

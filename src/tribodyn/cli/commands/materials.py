@@ -10,6 +10,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 
 HELP = "list the materials that a case can name, or the properties of some with their sources"
+EXAMPLE = "tribodyn materials ptfe-liner bronze-c93200"
 
 
 def add_arguments(parser: ArgumentParser) -> None:

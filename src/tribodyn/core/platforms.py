@@ -1,0 +1,157 @@
+"""Differences between operating systems: no other module asks which one this is.
+
+Linux is what the tests run on. Windows and macOS are run as if: a test takes from Python what they lack.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from multiprocessing.context import ForkServerContext, SpawnContext
+
+# In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
+METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
+"""Start method of processes, as :mod:`multiprocessing` calls it; libraries of macOS do not survive a fork."""
+FORKS: Final = sys.platform == "linux"
+"""Whether a process may be forked from one with libraries loaded."""
+KNOWS_LOCAL_NAMES: Final = sys.platform != "darwin"
+"""Whether browsers take every name in ``.localhost`` for this machine; on macOS they ask the system."""
+HANGUP: Final = () if sys.platform == "win32" else (signal.SIGHUP,)
+"""Signals at the end of a terminal."""
+_QUOTA: Final = Path("/sys/fs/cgroup/cpu.max")
+"""File of Linux with a container's limits: time on all processors together, and its period [µs]."""
+_LOCK: Final = ".lock"
+"""File that is locked where folders cannot be."""
+_MMAP_THRESHOLD: Final = -3
+"""Parameter of ``mallopt``: the size from which a block comes from the system and goes back there."""
+_LARGE: Final = 131_072
+"""The size that glibc begins with [bytes]."""
+
+
+def processors() -> int:
+    """Return on how many processors this process may run, as its affinity and its container say."""
+    count = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+    with suppress(OSError, ValueError):  # no container, or one without a limit
+        used, period = map(int, _QUOTA.read_text(encoding="ascii").split())
+        count = min(count, math.ceil(used / period))
+    return max(count, 1)
+
+
+def free_handles() -> int:
+    """Return the number of further files, pipes and sockets that this process may open."""
+    if sys.platform == "win32":
+        return sys.maxsize
+    import resource
+
+    limit, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if limit == resource.RLIM_INFINITY:
+        return sys.maxsize
+    # Looking takes one itself.
+    return limit - len(os.listdir("/dev/fd")) + 1
+
+
+def limit_memory(more: int) -> None:
+    """Let the address space of this process grow by so many bytes and no further, where the system can."""
+    if sys.platform != "linux":
+        return
+    import resource
+
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    most = pages * resource.getpagesize() + more
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    if hard == resource.RLIM_INFINITY or most < hard:
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def give_back_large_blocks() -> None:
+    """Have every large block of this process taken from the system, and given back when it is free.
+
+    glibc raises this size to that of the largest block that was ever freed. From then on pictures share its
+    heap, where those of other sizes do not fit into the gaps that forgotten ones leave: of 100 MB that are
+    kept it made 190 MB. Elsewhere than with glibc nothing is done.
+    """
+    if sys.platform == "linux":
+        with suppress(AttributeError, OSError):
+            ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, _LARGE)
+
+
+def start_context() -> ForkServerContext | SpawnContext:
+    """Return the way in which processes start."""
+    if METHOD == "forkserver":
+        return multiprocessing.get_context("forkserver")
+    return multiprocessing.get_context("spawn")
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Hold back Ctrl-C, which is for the command: a process started meanwhile never hears it."""
+    if sys.platform == "win32":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def flush_folder(folder: Path) -> None:
+    """Wait until the names in a folder are on the disk, where folders can be opened."""
+    if sys.platform == "win32":
+        return
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[bool | None]:
+    """Lock a folder while the block runs; a killed process keeps nobody out.
+
+    Yields
+    ------
+    bool or None
+        Whether this process has it: False when another one does, None where the file system has no locks.
+    """
+    if sys.platform != "win32":
+        handle = os.open(folder, os.O_RDONLY)
+    else:
+        try:
+            # Removed by the system when it is closed, and refused while another process removes it.
+            handle = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT | getattr(os, "O_TEMPORARY", 0))
+        except PermissionError:
+            yield False
+            return
+    try:
+        yield _lock(handle)
+    finally:
+        os.close(handle)
+
+
+def _lock(handle: int) -> bool | None:
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError:
+        return None
+    return True
