@@ -18,6 +18,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
+from tests.unit.cli.test_workbench import asked
 
 from tribodyn.cli.main import main
 from tribodyn.core import platforms
@@ -47,7 +48,7 @@ COMMANDS = {
         "--vary",
         f"{RADIAL}=20..30um",
         "--until",
-        "drive_moment_max_Nm=139",
+        "offset_max_um=22",
         "--json",
     ),
     "fit": ("fit", *SHORT, "--vary", f"{RADIAL}=20..40um", "--data", "run.csv", "--json"),
@@ -168,9 +169,11 @@ def test_the_workbench_begins_and_ends_elsewhere(system: str, tmp_path: Path) ->
         assert process.stdout is not None
         address = json.loads("".join(process.stdout.readline() for _ in range(3)))["address"]
         assert ("localhost" in address) == (system == "win32")
+        with asked(address) as answer:
+            assert answer.status == 200
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=LONG)
-    assert process.returncode == 0
+    assert process.returncode == 0, said
     assert "Traceback" not in said
 
 
@@ -207,7 +210,7 @@ def test_two_cannot_write_into_one_folder_elsewhere(system: str, tmp_path: Path)
 def test_one_module_asks_which_system_this_is() -> None:
     asked = re.compile(
         r"\b(sys\.platform|os\.name\b|platform\.system|fcntl|msvcrt|import resource|geteuid|getuid"
-        r"|O_DIRECTORY|pthread_sigmask|SIGHUP|os\.fork|sched_getaffinity)"
+        r"|O_DIRECTORY|pthread_sigmask|signal\.SIGHUP|os\.fork|sched_getaffinity)"
     )
     found = {
         str(path.relative_to(SOURCES))
