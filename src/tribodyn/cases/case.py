@@ -6,7 +6,8 @@ One file because groups, building and changed copies are one protocol that calls
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+import math
+from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import lru_cache
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
@@ -25,12 +26,11 @@ from pydantic_core import PydanticCustomError
 from tribodyn.cases import scans
 from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.entry import Entry, read_entry
-from tribodyn.cases.fields import quantity, tables, text
-from tribodyn.cases.html import to_html
+from tribodyn.cases.fields import Vector, quantity, tables, text
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
-from tribodyn.cases.meshes import with_meshes_read
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, Remarks, located, problems, unknown
 from tribodyn.cases.parameters import read_all, scope_of, unused_parameters
+from tribodyn.cases.scans import with_meshes_read
 from tribodyn.cases.tables import (
     FROZEN,
     Tables,
@@ -45,8 +45,9 @@ from tribodyn.cases.tables import (
     value_at,
     with_components,
 )
-from tribodyn.cases.write import to_toml
+from tribodyn.cases.write import to_html, to_toml
 from tribodyn.core.errors import Faults, InputError, together
+from tribodyn.core.quoting import meant
 
 _T = TypeVar("_T")
 AnyCase = TypeVar("AnyCase", bound="Case")
@@ -460,3 +461,24 @@ def _alternatives_of(model: type[Case], keys: tuple[str, ...]) -> tuple[tuple[st
         for first, second in scans.ALTERNATIVES
     )
     return (*alternatives(model, keys), *of_scans)
+
+
+def demand_known(given: str, names: Collection[str], key: str, what: str) -> None:
+    """Refuse a name that no table has."""
+    if given in names:
+        return
+    there = f"known: {', '.join(names)}" if names else "there is none"
+    demand(False, key, f'"{given}" is no {what}; {there}{meant(given, names)}')
+
+
+def unit(direction: Vector, key: str) -> Vector:
+    """Return a direction as a unit vector; one of no length is refused."""
+    length = math.hypot(*direction)
+    demand(length > 0.0, key, "a direction has a length above zero")
+    x, y, z = direction
+    return x / length, y / length, z / length
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Return the scalar product."""
+    return sum(x * y for x, y in zip(a, b, strict=True))

@@ -10,8 +10,7 @@ from typing import Any, TypeAlias, TypedDict, Unpack
 
 from pydantic import Field
 
-from tribodyn.cases.lists import elements
-from tribodyn.cases.units import to_si, unit_of
+from tribodyn.cases.units import elements, to_si, unit_of
 
 Bound: TypeAlias = str | float | None
 Vector: TypeAlias = tuple[float, float, float]

@@ -17,11 +17,12 @@ from typing import Literal, TypeAlias, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from tribodyn.cases.lists import LISTS, elements
 from tribodyn.cases.units import (
+    LISTS,
     MissingUnit,
     UnitProblem,
     dimension,
+    elements,
     from_si,
     likely_quantity,
     likely_unit,

@@ -18,8 +18,15 @@ from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.expressions import CONSTANTS, FUNCTIONS, evaluate, is_unit, names_in
 from tribodyn.cases.keys import Key, Value, shown
 from tribodyn.cases.known_units import EVERYDAY
-from tribodyn.cases.lists import LISTS
-from tribodyn.cases.units import AMPLITUDES, UnitProblem, counts_from_zero, si_unit, unit_of, with_shared_unit
+from tribodyn.cases.units import (
+    AMPLITUDES,
+    LISTS,
+    UnitProblem,
+    counts_from_zero,
+    si_unit,
+    unit_of,
+    with_shared_unit,
+)
 from tribodyn.core.errors import Faults, InputError
 
 TABLE: Final = "parameters"

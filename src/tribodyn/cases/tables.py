@@ -18,9 +18,8 @@ from pydantic import BaseModel
 
 from tribodyn.cases.entry import Entry
 from tribodyn.cases.keys import ANY_NAME, VALUE, Key, Value, groups_of, keys_of
-from tribodyn.cases.lists import AXES
 from tribodyn.cases.parameters import keys_with_units
-from tribodyn.cases.units import from_si
+from tribodyn.cases.units import AXES, from_si
 
 FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns a changed copy'
 """Message for an attempt to change a case."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal, Protocol, cast
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Numbers, choice, quantity, series
 from tribodyn.cases.groups import Surfaces
-from tribodyn.cases.joint import LinerKeys, PlainJoint
+from tribodyn.cases.joint_keys import LinerKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.materials import between
 from tribodyn.cases.signals import TemperatureTable

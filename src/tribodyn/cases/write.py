@@ -1,13 +1,14 @@
-"""From a case to TOML text, plain or commented."""
+"""From a case to TOML text, plain or commented, to a table for notebooks, and to its choices."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
+from html import escape
 from itertools import groupby
 from textwrap import wrap
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 
@@ -178,3 +179,54 @@ def comment(key: Key, *, own: bool = False) -> str:
         )
     bounds = " | ".join(key.choices) if len(key.choices) > 1 else key.limits
     return "; ".join(part for part in (key.description, bounds, source) if part)
+
+
+def to_html(case: BaseModel, title: str, own: Collection[str]) -> str:
+    """Return a case as HTML.
+
+    Parameters
+    ----------
+    case
+        The case.
+    title
+        Its heading.
+    own
+        What a user gave, by dotted path.
+    """
+    keys = [key for key in keys_in(case).values() if value_at(case, key.path) is not None]
+    given = [key for key in keys if key.path in own]
+    parts = [f"<strong>{escape(title)}</strong>", *_table(case, given, own)]
+    for table, inside in groupby(keys, key=lambda key: key.table):
+        if table:
+            parts += [
+                f"<details><summary>{escape(table)}</summary>",
+                *_table(case, inside, own),
+                "</details>",
+            ]
+    return "\n".join(parts)
+
+
+def _table(case: BaseModel, keys: Iterable[Key], own: Collection[str]) -> Iterator[str]:
+    yield "<table>"
+    for key in keys:
+        value = key.write(value_at(case, key.path)).strip('"')
+        cells = (key.path, value, comment(key, own=key.path in own))
+        yield f"<tr>{''.join(f'<td style=text-align:left>{escape(cell)}</td>' for cell in cells)}</tr>"
+    yield "</table>"
+
+
+Choices: TypeAlias = frozenset[tuple[str, object]]
+
+
+def choices_of(case: BaseModel) -> Choices:
+    """Return the choices of a case but for its title. Cases that agree in them have the same equations."""
+    return frozenset(_choices(case.model_dump(exclude={"title", "results"})))
+
+
+def _choices(settings: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, object]]:
+    """Yield settings below a path."""
+    for name, value in settings.items():
+        if isinstance(value, Mapping):
+            yield from _choices(value, f"{path}{name}.")
+        elif value is None or isinstance(value, str | bool):
+            yield f"{path}{name}", value

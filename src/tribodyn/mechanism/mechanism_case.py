@@ -14,16 +14,14 @@ from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import Case, demand
+from tribodyn.cases.case import Case, demand, demand_known
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
-from tribodyn.cases.film import FilmGridKeys
-from tribodyn.cases.functions import Doors, OwnFunction
 from tribodyn.cases.groups import Contact, Wear, check_output_interval
+from tribodyn.cases.joint_keys import FilmGridKeys
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
-from tribodyn.cases.known import demand_known
+from tribodyn.cases.loads import Doors, OwnFunction
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.remarks import has_wear_rate, of_choice, of_surfaces
-from tribodyn.cases.rough import RoughCase
+from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_surfaces
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
 from tribodyn.joints.resolution import FEWEST

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Final, Literal
 
-from tribodyn.cases.case import Group
+from tribodyn.cases.case import Group, demand_known
 from tribodyn.cases.fields import choice, count, names, number, quantity
 from tribodyn.cases.groups import GridKeys
 from tribodyn.cases.keys import ASSUMED
-from tribodyn.cases.known import demand_known
 from tribodyn.mechanisms.playback import EVEN
 
 ROWS: Final = 500

@@ -12,7 +12,7 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases import groups
-from tribodyn.cases.joint import PlainJoint
+from tribodyn.cases.joint_keys import PlainJoint
 from tribodyn.cases.temperature import Temperature
 from tribodyn.contact import HasSurfacePair, Liner, SurfacePair
 from tribodyn.contact.base import ContactLaw

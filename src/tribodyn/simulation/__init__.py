@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.functions import Controlled, OwnFunction, with_functions
 from tribodyn.cases.groups import Contact
+from tribodyn.cases.loads import Controlled, OwnFunction, with_functions
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.linear_algebra import one_thread

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from tribodyn.cases.choices import Choices, choices_of
+from tribodyn.cases.write import Choices, choices_of
 from tribodyn.core.errors import Stopped
 from tribodyn.core.platforms import processors
 from tribodyn.core.stopping import ask

@@ -9,8 +9,8 @@ from statistics import median
 from typing import Final
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.choices import Choices, choices_of
 from tribodyn.cases.tables import keys_in
+from tribodyn.cases.write import Choices, choices_of
 from tribodyn.core.errors import InputError
 
 MOST_ROWS: Final = 100_000

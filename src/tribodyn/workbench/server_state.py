@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
-from tribodyn.cases.choices import Choices, choices_of
+from tribodyn.cases.write import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.workbench.cost import Costs
 from tribodyn.workbench.description import description

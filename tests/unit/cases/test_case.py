@@ -238,7 +238,7 @@ def test_the_kind_of_a_case_cannot_be_replaced() -> None:
 
 
 def test_models_check_values_without_a_file() -> None:
-    from tribodyn.cases.joint import PlainJoint
+    from tribodyn.cases.joint_keys import PlainJoint
 
     with pytest.raises(ValidationError):
         PlainJoint(clearance=-1.0)

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.cases.functions import OwnFunction
+from tribodyn.cases.loads import OwnFunction
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import unit
 from tribodyn.kernels.mechanism import data as kinds
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase

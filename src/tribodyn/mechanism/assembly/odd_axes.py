@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Final
 
-from tribodyn.cases.directions import dot, unit
+from tribodyn.cases.case import dot, unit
 from tribodyn.cases.fields import Vector
 from tribodyn.mechanism.model.parts import JointKeys
 

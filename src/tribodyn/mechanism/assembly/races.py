@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanism.frames import GROUND, cross

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places

@@ -10,7 +10,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import xarray as xr
 
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import unit
 from tribodyn.cases.fields import Vector
 from tribodyn.cases.load import parse
 from tribodyn.core.arrays import FloatArray

@@ -15,7 +15,7 @@ from typing import Any, Final
 from pydantic import BaseModel
 
 from tribodyn.cases.case import ParameterKeys
-from tribodyn.cases.film import FilmKeys
+from tribodyn.cases.joint_keys import FilmKeys
 from tribodyn.cases.keys import VALUE
 from tribodyn.mechanism.builder.arguments import Argument, arguments_of, parameters_of
 from tribodyn.mechanism.elements import ELEMENTS

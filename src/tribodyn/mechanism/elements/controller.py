@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Final
 
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import quantity
-from tribodyn.cases.functions import OwnFunction
+from tribodyn.cases.loads import OwnFunction
 from tribodyn.cases.signals import AngleSignal, PositionSignal, SpeedSignal, VelocitySignal
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant

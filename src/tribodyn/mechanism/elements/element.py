@@ -21,8 +21,7 @@ from typing import Any, ClassVar, Final, Literal, Self
 import numpy as np
 
 from mebdf.kernels.elementary import portable
-from tribodyn.cases.case import NamedGroup, demand
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import NamedGroup, demand, unit
 from tribodyn.cases.fields import Vector, name, names, quantity, vector
 from tribodyn.cases.signals import ForceSignal, TorqueSignal
 from tribodyn.core.arrays import FloatArray

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from tribodyn.cases.lists import AXES
+from tribodyn.cases.units import AXES
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.chart import COLOURS
 from tribodyn.mechanism.assembly.skeleton import Skeleton, view

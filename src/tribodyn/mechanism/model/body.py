@@ -7,8 +7,7 @@ from typing import ClassVar, Final, Literal
 
 import numpy as np
 
-from tribodyn.cases.case import NamedGroup, demand
-from tribodyn.cases.directions import dot, unit
+from tribodyn.cases.case import NamedGroup, demand, dot, unit
 from tribodyn.cases.fields import Numbers, Vector, choice, file, number, quantity, series, vector
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.model.parts import POINT

@@ -6,12 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Final, TypeAlias
 
-from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.case import NamedGroup, demand, unit
 from tribodyn.cases.columns import KNOTS
-from tribodyn.cases.directions import unit
 from tribodyn.cases.fields import Vector, name, vector
-from tribodyn.cases.functions import Doors
-from tribodyn.cases.loads import BodyLoad
+from tribodyn.cases.loads import BodyLoad, Doors
 from tribodyn.cases.signals import (
     AngleSignal,
     ForceSignal,

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import ClassVar, Final, Literal
 
 from tribodyn.cases import fields
-from tribodyn.cases.case import demand
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import demand, unit
 from tribodyn.cases.fields import Numbers, Vector, choice, name, series, vector
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.model.parts import POINT

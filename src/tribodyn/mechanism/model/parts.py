@@ -6,8 +6,7 @@ import math
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, Final, Self
 
-from tribodyn.cases.case import NamedGroup, demand
-from tribodyn.cases.directions import dot, unit
+from tribodyn.cases.case import NamedGroup, demand, dot, unit
 from tribodyn.cases.fields import (
     Vector,
     choice,
@@ -19,8 +18,7 @@ from tribodyn.cases.fields import (
     switch,
     vector,
 )
-from tribodyn.cases.film import FilmKeys
-from tribodyn.cases.joint import SURFACE, FormKeys, LinerKeys
+from tribodyn.cases.joint_keys import SURFACE, FilmKeys, FormKeys, LinerKeys
 from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import JointType

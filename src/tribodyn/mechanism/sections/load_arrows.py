@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.cases.directions import unit
+from tribodyn.cases.case import unit
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.mechanism.assembly.skeleton import Skeleton, rotated

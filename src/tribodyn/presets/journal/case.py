@@ -9,15 +9,12 @@ from typing import ClassVar, Final, Literal
 from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Vector, choice, number, quantity, switch, tables, text, vector
-from tribodyn.cases.film import OptionalFilmKeys
-from tribodyn.cases.functions import Doors
 from tribodyn.cases.groups import Solver, Tolerances, check_output_interval
-from tribodyn.cases.joint import FormKeys, PlainJoint
+from tribodyn.cases.joint_keys import FormKeys, OptionalFilmKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
-from tribodyn.cases.loads import ShaftLoad
+from tribodyn.cases.loads import Doors, ShaftLoad
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.remarks import of_choice
-from tribodyn.cases.rough import BushingCase
+from tribodyn.cases.rough import BushingCase, of_choice
 from tribodyn.cases.signals import SpeedTable
 
 SECTION_4 = "paper, section 4.1"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cases.film import FilmKeys
+from tribodyn.cases.joint_keys import FilmKeys
 from tribodyn.mechanism.mechanism_case import MechanismCase
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases import Case
 from tribodyn.cases.fields import choice
-from tribodyn.cases.functions import with_functions
+from tribodyn.cases.loads import with_functions
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
