@@ -1,4 +1,4 @@
-"""Pairs of rough surfaces of a case: their common parts, and remarks on values that may not belong together."""
+"""Pairs of rough surfaces of a case: common parts, and remarks on values that may not belong together."""
 
 from __future__ import annotations
 
