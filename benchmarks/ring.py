@@ -108,8 +108,8 @@ def one(n: int, cycles: float) -> dict[str, dict[str, float]]:
     with parts.part("imports"):
         import tribodyn as td
         from tribodyn.core.linear_algebra import one_thread
-        from tribodyn.mechanisms.base import FinishedRun, ResultPart
         from tribodyn.mechanisms.catalogue import MECHANISMS
+        from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
         from tribodyn.mechanisms.results import summarise
         from tribodyn.results.store import write_run
         from tribodyn.simulation.session import Session

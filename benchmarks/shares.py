@@ -29,8 +29,8 @@ from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.problem import LinearSolver
 from tribodyn.integrate import mebdf
 from tribodyn.kernels.jit import kernel
-from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.catalogue import MECHANISMS
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
 from tribodyn.mechanisms.results import summarise
 from tribodyn.simulation.session import Session
 

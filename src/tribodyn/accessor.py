@@ -24,7 +24,7 @@ from tribodyn.core.quoting import as_given, meant
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tribodyn.figures.base import Family
+    from tribodyn.figures.figure_family import Family
 
 ORBIT: Final = "orbit"
 _ORBITS: Final = ("trajectory", "orbits", "path")

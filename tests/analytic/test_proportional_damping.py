@@ -9,8 +9,8 @@ import pytest
 
 import tribodyn as td
 from tribodyn.contact import law, tabulate
-from tribodyn.contact.base import MEMORYLESS
 from tribodyn.contact.bounce import bounce
+from tribodyn.contact.contact_law import MEMORYLESS
 from tribodyn.contact.damping_factors import rebound
 from tribodyn.core.errors import InputError
 from tribodyn.joints import contact_table

@@ -15,7 +15,7 @@ import tribodyn as td
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.kernels.signals import Signals, evaluate
 from tribodyn.mechanisms.results import summarise
-from tribodyn.mechanisms.signals import Pieces, SignalList, backward
+from tribodyn.mechanisms.signal_pieces import Pieces, SignalList, backward
 from tribodyn.results.reading import column
 
 PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}

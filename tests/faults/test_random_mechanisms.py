@@ -17,7 +17,7 @@ from tests.faults.random_mechanisms import Drawing, drawn
 from tests.faults.test_random_physics import chunks
 
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.checks import ENERGY_LIMIT
+from tribodyn.mechanisms.self_checks import ENERGY_LIMIT
 from tribodyn.simulation import simulate
 
 CLOSED = 1e-10

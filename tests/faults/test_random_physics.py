@@ -22,9 +22,9 @@ import xarray as xr
 from tribodyn.contact import DAMPING_FACTORS, LAWS
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
-from tribodyn.mechanisms.checks import TIGHTEN
+from tribodyn.mechanisms.self_checks import TIGHTEN
 from tribodyn.papers.cheng_2022.reduced.reach import reachable
-from tribodyn.results.peaks import PARTS
+from tribodyn.results.variables import PARTS
 from tribodyn.simulation import simulate
 
 ENERGY_LIMIT = 0.01

@@ -9,7 +9,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.integrate import integrate
-from tribodyn.mechanisms.base import FinishedRun
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun
 from tribodyn.papers.cheng_2022.reduced.descriptor import MECHANISM
 
 PEAKED = {

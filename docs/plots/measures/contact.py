@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 import tribodyn as td
 from measures.base import Numbers, vsv
 from tribodyn.contact import Liner, law, tabulate
-from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.bounce import Bounce, bounce
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.contact.kogut_etsion import KogutEtsion
 from tribodyn.contact.quadrature import asperity_integral
 from tribodyn.mechanisms.catalogue import MECHANISMS

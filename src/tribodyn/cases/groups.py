@@ -287,7 +287,7 @@ class Contact(_ContactKeys):
     @property
     def least_entry_velocity(self) -> float:
         """Least δ̇₋ [m/s]; where damping is in proportion to the speed it is that of all points."""
-        from tribodyn.contact.base import MEMORYLESS
+        from tribodyn.contact.contact_law import MEMORYLESS
 
         return self.minimum_entry_velocity if self.loss_coefficient is None else MEMORYLESS
 

@@ -253,7 +253,7 @@ def _of_one(unit: Entry | None) -> Entry | None:
 def _corners(file: Path, unit: float) -> str:
     """Return all coordinates of the corners as a case writes them."""
     # Imported here: few cases have a mesh.
-    from tribodyn.joints.shapes.stl import read_stl
+    from tribodyn.joints.shapes.mesh import read_stl
 
     try:
         facets = read_stl(read_regular(file, LARGEST))

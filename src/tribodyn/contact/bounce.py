@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from mebdf.kernels.elementary import portable
-from tribodyn.contact.base import DESIGN_PRESSURE
+from tribodyn.contact.contact_law import DESIGN_PRESSURE
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable

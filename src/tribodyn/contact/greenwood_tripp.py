@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.contact.quadrature import asperity_integral
 from tribodyn.core.arrays import FloatArray
 

@@ -14,7 +14,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.contact.parameter import parameter
 from tribodyn.contact.quadrature import asperity_integral, exceedance
 from tribodyn.core.arrays import FloatArray

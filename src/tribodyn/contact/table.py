@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.contact.base import ContactLaw
 from tribodyn.contact.bounce import calibrating_scale
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.tables import ContactTable

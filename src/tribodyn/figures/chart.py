@@ -1,4 +1,4 @@
-"""A chart over time as a figure."""
+"""A chart over time as a figure, its reversals marked and kept from flattening what lies between."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
-from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
+from tribodyn.figures.figure_family import Family
+from tribodyn.figures.style import GREY, SMALL
 from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
-from tribodyn.views.events import impact_time, reversal_times
+from tribodyn.views.events import impact_time, reversal_times, smooth_limits
 from tribodyn.views.playback import time_unit
-from tribodyn.views.series import series
+from tribodyn.views.series import peak, series
 
 COLOURS: Final = {
     "ink": style.INK,
@@ -100,3 +100,47 @@ def _draw_marks(axes: Axes, marks: ChartMarks, scale: float) -> None:
 
 def _looks(curve: ChartCurve) -> tuple[FloatArray, str, str, style.LineStyle]:
     return curve.values, curve.name, COLOURS[curve.colour], DASHES[curve.dash]
+
+
+def mark_reversals(axes: Axes, times: FloatArray, label: bool = False) -> None:
+    """Draw a fine line at each reversal, and name the first one above the axes if asked."""
+    for time in times:
+        axes.axvline(time, color=GREY, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1)
+    if label and times.size:
+        axes.annotate(
+            "reversal",
+            (times[0], 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="center",
+            size=SMALL - 0.5,
+            color=GREY,
+        )
+
+
+def limit_to_smooth(
+    axes: Axes, time: FloatArray, values: FloatArray, turns: FloatArray, impact_time: float, unit: str
+) -> None:
+    """Scale the y axis to the smooth motion where impacts would flatten it, and say what lies outside.
+
+    Parameters
+    ----------
+    axes
+        Axes to scale; an axis that begins at zero stays so.
+    time
+        Times [s], shape (n_t,).
+    values
+        What is drawn, shape (..., n_t).
+    turns, impact_time
+        Reversal times, and how long impacts last after them [s].
+    unit
+        Unit of the values.
+    """
+    limits = smooth_limits(time, values, turns, impact_time)
+    if not limits:
+        return
+    axes.set_ylim(*limits)
+    loud = peak(values)
+    text = f"cut off: impacts reach {loud:.3g} {unit}"
+    axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
-from tribodyn.figures.reversals import limit_to_smooth, mark_reversals
+from tribodyn.figures.chart import limit_to_smooth, mark_reversals
+from tribodyn.figures.figure_family import Family
 from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.series import finite, peak, series
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.views.energy_balance import EnergyBalance
 from tribodyn.views.playback import time_unit
 from tribodyn.views.series import finite, peak, series

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, sheet
 from tribodyn.figures.unrolled import draw_map, threshold_line
 from tribodyn.views.series import series, signed

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.views.numbers import as_read
 from tribodyn.views.series import finite
 

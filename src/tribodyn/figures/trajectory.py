@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.views.bushing_sections import centre
 from tribodyn.views.events import direction
 from tribodyn.views.series import finite, peak, signed

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.figures.unrolled import draw_map
 from tribodyn.views.series import series, signed
 from tribodyn.views.unrolled import WALL, best_cut, rolled, unloaded_middle, wall_angles, z_label

@@ -15,8 +15,8 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
-from tribodyn.joints.shapes.base import Points, Surface
 from tribodyn.joints.shapes.rings import Rings
+from tribodyn.joints.shapes.surface import Points, Surface
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.bushing import BushingData, report, wrench, wrench_and_jacobian

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from mebdf.kernels.elementary import portable
 from tribodyn.contact import Liner
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
 from tribodyn.lubrication.factors import Roughness
-from tribodyn.lubrication.film import BOUNDARIES, CAVITATION, Film, FilmGrid
-from tribodyn.lubrication.several import stacked_data, stacked_memory
+from tribodyn.lubrication.oil_film import BOUNDARIES, CAVITATION, Film, FilmGrid, stacked_data, stacked_memory
 from tribodyn.lubrication.state import FilmState, explain, film_state
 
 __all__ = [

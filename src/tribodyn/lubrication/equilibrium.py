@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels import dense
 from tribodyn.kernels.film.data import FilmData, FilmMemory
-from tribodyn.lubrication.film import Film
+from tribodyn.lubrication.oil_film import Film
 from tribodyn.lubrication.state import FilmState, film_state
 
 _DEEPEST: Final = 4.0

@@ -21,7 +21,7 @@ from tribodyn.kernels.film.data import (
 )
 from tribodyn.kernels.film.report import film_leakage, film_pressure
 from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
-from tribodyn.lubrication.film import Film
+from tribodyn.lubrication.oil_film import Film
 
 _REASONS: Final = {
     CONVERGED: "converged",

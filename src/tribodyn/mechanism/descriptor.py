@@ -14,7 +14,7 @@ from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
 from tribodyn.mechanism.results.joint_numbers import BY_JOINT
 from tribodyn.mechanism.results.mechanism_results import BY_MODE, KEY_NUMBERS, KEY_RESULTS
-from tribodyn.mechanisms.base import MechanismDescriptor
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 
 

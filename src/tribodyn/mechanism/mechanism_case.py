@@ -44,7 +44,7 @@ from tribodyn.mechanism.model.pairs import PairKeys, friction_of
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
-from tribodyn.mechanisms.base import plain
+from tribodyn.mechanisms.mechanism_protocol import plain
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
 
 _PAIRS: Final = "pairs"

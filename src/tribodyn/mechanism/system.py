@@ -44,8 +44,7 @@ from tribodyn.mechanism.mechanism_variables import (
 from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.drive_power import power_columns, with_motors
-from tribodyn.mechanism.results.followed import followed, transmitted
+from tribodyn.mechanism.results.followed import followed, power_columns, transmitted, with_motors
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
@@ -78,11 +77,11 @@ from tribodyn.mechanism.results.output_columns import (
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.slow_sliding import of_slow_sliding
-from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
-from tribodyn.mechanisms.checks import named, of_clearance, of_tables
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives
 from tribodyn.mechanisms.playback import frame_times, shown
+from tribodyn.mechanisms.self_checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.results.attributes import CARRIED, NOT_KEPT
 
@@ -94,7 +93,7 @@ _AS_DRAWN: Final = ("assembly", "maps", "outputs", "_starts")
 
 @dataclass(frozen=True)
 class MechanismSystem:
-    """The mechanism of a case; see :class:`~tribodyn.mechanisms.base.WearingSystem`."""
+    """The mechanism of a case; see :class:`~tribodyn.mechanisms.mechanism_protocol.WearingSystem`."""
 
     case: MechanismCase
     begin: float = 0.0

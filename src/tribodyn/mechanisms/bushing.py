@@ -15,7 +15,7 @@ from tribodyn.cases import groups
 from tribodyn.cases.joint_keys import PlainJoint
 from tribodyn.cases.temperature import Temperature
 from tribodyn.contact import HasSurfacePair, Liner, SurfacePair
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import skip
 from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table

@@ -24,7 +24,7 @@ from tribodyn.cases.load import BuiltIn
 from tribodyn.core import toml
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, meant
-from tribodyn.mechanisms.base import MechanismDescriptor
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 
 FOLDERS: Final = {
     "mechanism": "tribodyn.mechanism",

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tribodyn.cases.groups import Bushing, Surfaces, Trunnion
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.contact.flash_temperature import Conductor, flash_temperature
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints import BushingJoint

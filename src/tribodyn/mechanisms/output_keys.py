@@ -12,7 +12,7 @@ from tribodyn.cases import fields
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Numbers, series
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.base import plain
+from tribodyn.mechanisms.mechanism_protocol import plain
 
 ANGLE_UNIT: Final = "deg"
 ERROR_LIMIT_OF: Final = {"wear_error_share": "the error limit of an output"}

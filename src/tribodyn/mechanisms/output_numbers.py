@@ -12,7 +12,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.mechanisms.base import ByPart, plain
+from tribodyn.mechanisms.mechanism_protocol import ByPart, plain
 from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, entries, peak, settled, sustained
 from tribodyn.results.summary import KeyResult

@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Table, names
 from tribodyn.kernels.peaks import Peaks
-from tribodyn.results.peaks import PARTS
+from tribodyn.results.variables import PARTS
 
 IMPACT_SHARE: Final = 0.1
 """Impacts, and the ringing that follows them, are over after this share of the time between two reversals of

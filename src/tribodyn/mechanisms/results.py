@@ -12,8 +12,8 @@ import xarray as xr
 
 from tribodyn.cases.case import Case
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.results import json_attribute, store, summary
 from tribodyn.results.attributes import NOT_KEPT
 from tribodyn.results.reading import entries

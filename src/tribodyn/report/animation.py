@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from tribodyn.core.arrays import FloatArray
-    from tribodyn.figures.base import Animation
+    from tribodyn.figures.figure_family import Animation
 
 _PER_SECOND: Final = 20
 """Frames in a second of film."""

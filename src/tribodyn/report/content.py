@@ -13,7 +13,7 @@ import xarray as xr
 from PIL import Image
 
 from tribodyn.core.files import read_regular
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.views.section import Chapter, Section
 
 Shown = dict[str, Any]

@@ -8,8 +8,7 @@ from pathlib import Path
 import xarray as xr
 
 from tribodyn.figures import sweep
-from tribodyn.figures.base import Family
-from tribodyn.figures.save import remove, save
+from tribodyn.figures.figure_family import Family, remove, save
 from tribodyn.mechanisms.results import all_there, mechanism_of
 
 

@@ -116,3 +116,23 @@ POINT_TEXTS: Final[dict[str, str]] = {
     "points": "name of the folder of the point below points/",
 }
 """Texts of a sweep on each of its points, with their meanings; all else it holds are numbers."""
+
+
+PARTS: Final = {
+    "impact": "in the impacts after the reversal",
+    "outside": "from these impacts to the next reversal",
+}
+"""Parts of the time from one reversal to the next, in the order of the kernels."""
+
+
+def of_reversals_described(table: Table, part_of: tuple[str, ...] = ()) -> dict[str, Variable]:
+    """Return the descriptions of the peaks of each reversal, and of each part of a mechanism, by name."""
+    described = {}
+    for quantity in table:
+        for part, where in PARTS.items():
+            meaning = f"largest {quantity.meaning} {where}"
+            described[f"{quantity.name}_{part}"] = Variable(quantity.unit, meaning, (*REVERSAL, *part_of))
+            described[f"{quantity.name}_{part}_time"] = Variable(
+                "s", f"time of the {meaning}", (*REVERSAL, *part_of)
+            )
+    return described

@@ -17,8 +17,8 @@ from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.linear_algebra import one_thread
 from tribodyn.core.stopping import Stop, asked
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.base import MechanismDescriptor, ResultPart, SystemCase
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor, ResultPart, SystemCase
 from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded, run_loaded
 from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Session

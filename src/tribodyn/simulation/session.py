@@ -13,7 +13,13 @@ from tribodyn.core.problem import Problem, Solution
 from tribodyn.core.stopping import Stop, skipped
 from tribodyn.core.versions import provenance
 from tribodyn.integrate import INTERRUPTED, integrate
-from tribodyn.mechanisms.base import FinishedRun, MechanismDescriptor, ResultPart, SimulatedSystem, SystemCase
+from tribodyn.mechanisms.mechanism_protocol import (
+    FinishedRun,
+    MechanismDescriptor,
+    ResultPart,
+    SimulatedSystem,
+    SystemCase,
+)
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
 from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH

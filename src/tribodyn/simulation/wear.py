@@ -16,7 +16,7 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.materials import life_factor
 from tribodyn.cases.tables import keys_in, value_at
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearingCase, WearingSystem
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearingCase, WearingSystem
 from tribodyn.mechanisms.wear_state import Carried, Worn
 from tribodyn.simulation import checkpoint as checkpoints
 from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_campaign

@@ -12,9 +12,9 @@ import numpy as np
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 from tribodyn.surfaces.asperities import LEAST_BANDWIDTH, Asperities, asperities
-from tribodyn.surfaces.checks import FEWEST_POINTS, checked
 from tribodyn.surfaces.moments import Moments, moments
 from tribodyn.surfaces.scan import Scan
+from tribodyn.surfaces.scan_checks import FEWEST_POINTS, checked
 from tribodyn.surfaces.treatment import FILTERS, LEVELS, filtered, levelled
 
 _POINTS_OF_A_WAVE: Final = 2.0

@@ -12,7 +12,7 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.keys import VALUE, Key, Value
 from tribodyn.cases.tables import Tables, keys_in, with_components
 from tribodyn.cases.units import LISTS, number_in
-from tribodyn.mechanisms.checks import ROUGH_LIMIT
+from tribodyn.mechanisms.self_checks import ROUGH_LIMIT
 from tribodyn.studies.variation import written
 from tribodyn.workbench.ranges import track
 

@@ -6,8 +6,8 @@ from functools import cache
 from typing import Any, Final
 
 from tribodyn.core.versions import version
-from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS, templates
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.results import key_numbers_of, key_results_of_case
 from tribodyn.results import KeyResult
 from tribodyn.workbench.controls import controls

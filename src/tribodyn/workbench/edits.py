@@ -11,8 +11,8 @@ from tribodyn.cases.case import Case, with_entries
 from tribodyn.cases.keys import ANY_NAME, VALUE, Key, keys_of
 from tribodyn.cases.tables import keys_at, plain_path
 from tribodyn.core.errors import Faults, InputError
-from tribodyn.mechanisms.base import MechanismDescriptor
 from tribodyn.mechanisms.catalogue import MECHANISMS, parse_case, template
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.workbench.controls import FILE
 from tribodyn.workbench.messages import Edit, Values
 from tribodyn.workbench.variant import NO_FILES, Origin

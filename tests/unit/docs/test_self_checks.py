@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.mechanisms import checks
+from tribodyn.mechanisms import self_checks as checks
 
 PAGE = Path(__file__).parents[3] / "docs" / "guide" / "self_checks.md"
 LIMITS = {name: value for name, value in vars(checks).items() if name.endswith("_LIMIT")}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.shapes.stl import _TRIANGLE, MOST_BYTES, read_stl
+from tribodyn.joints.shapes.mesh import _TRIANGLE, MOST_BYTES, read_stl
 
 CORNERS = np.array([[[0.0, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0.5], [1, 1, 0], [1, 0, -2.5e-3]]])
 

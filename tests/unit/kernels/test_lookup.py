@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.contact import RSDC, SurfacePair, tabulate
-from tribodyn.contact.base import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy

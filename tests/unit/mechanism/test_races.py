@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tribodyn as td
-from tribodyn.mechanism.assembly.races import axes_of
+from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
 TURN = Rotation.from_rotvec([0.4, -0.7, 1.1]).as_matrix()

@@ -63,7 +63,7 @@ def execute(args: Namespace) -> int:
 def _draw(found: Iterable[OutputShares], title: str, folder: Path) -> None:
     """Draw the shares in the error of each output."""
     from tribodyn.figures.contributions import Shares, draw
-    from tribodyn.figures.save import save
+    from tribodyn.figures.figure_family import save
 
     folder.mkdir(exist_ok=True)
     for one in found:

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Final
 
 from tribodyn.joints.shapes.annulus import Annulus
-from tribodyn.joints.shapes.base import Points, Shape, Surface
 from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.mesh import Mesh
 from tribodyn.joints.shapes.round import Ball, Sphere
+from tribodyn.joints.shapes.surface import Points, Shape, Surface
 
 SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "cylinder": Cylinder,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.shapes.base import Points, Surface, check_positive, no_points
 from tribodyn.joints.shapes.rings import Rings, across
+from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 

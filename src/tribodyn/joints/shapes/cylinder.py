@@ -15,8 +15,8 @@ import numpy as np
 from tribodyn.core.errors import InputError
 from tribodyn.joints.form import Form
 from tribodyn.joints.shapes.annulus import Annulus
-from tribodyn.joints.shapes.base import Points, Surface, check_positive
 from tribodyn.joints.shapes.rings import Rings, with_edges
+from tribodyn.joints.shapes.surface import Points, Surface, check_positive
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 ENDS = {"upper": 1.0, "lower": -1.0}

@@ -10,7 +10,7 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quadrature import gauss_legendre_between
-from tribodyn.joints.shapes.base import Surface
+from tribodyn.joints.shapes.surface import Surface
 from tribodyn.kernels.joints.surface.data import Row
 
 EDGES: Final = 2

@@ -13,8 +13,8 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
-from tribodyn.joints.shapes.base import Points, Surface, check_positive, no_points
 from tribodyn.joints.shapes.rings import Rings, across
+from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 
 

@@ -21,7 +21,7 @@ from tribodyn.core.problem import Problem
 from tribodyn.mechanism.assembly.output_values import Output, motion_of
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.controller import Controller
-from tribodyn.mechanisms.base import plain
+from tribodyn.mechanisms.mechanism_protocol import plain
 
 _DUE: Final = 1.0e-6
 """Share of a sampling time within which it is now."""

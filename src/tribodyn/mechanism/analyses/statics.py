@@ -29,8 +29,8 @@ from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
 from tribodyn.mechanism.assembly.positions import DrivePath, undamped, walked
-from tribodyn.mechanism.assembly.settling import settled
-from tribodyn.mechanisms.checks import TOO_CLOSE
+from tribodyn.mechanism.assembly.start import settled
+from tribodyn.mechanisms.self_checks import TOO_CLOSE
 
 _SETTLED: Final = 1.0e-5
 """Change of gaps over the roughness that counts as zero."""

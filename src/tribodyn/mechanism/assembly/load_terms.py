@@ -12,8 +12,8 @@ from tribodyn.kernels.mechanism import data as kinds
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, LoadKeys
-from tribodyn.mechanisms.actions import Term
-from tribodyn.mechanisms.loads import parts_of, term
+from tribodyn.mechanisms.action_intervals import Term
+from tribodyn.mechanisms.shaft_loads import parts_of, term
 
 _KINDS: Final = {
     "ground": kinds.LOAD_GROUND,

@@ -21,7 +21,7 @@ from tribodyn.mechanism.assembly.ordering import n_blocks
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.records import mechanism_data, new_memory
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanisms.actions import WAVE_STEPS
+from tribodyn.mechanisms.action_intervals import WAVE_STEPS
 from tribodyn.mechanisms.wear_state import Carried
 
 FUNCTIONS: Final = CompiledFunctions(

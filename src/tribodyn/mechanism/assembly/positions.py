@@ -23,7 +23,7 @@ from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.integrate.driver import Kept
 from tribodyn.kernels.actions import TIME
 from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
-from tribodyn.mechanisms.signals import backward, constant
+from tribodyn.mechanisms.signal_pieces import backward, constant
 
 BROKEN: Final = "a joint has come apart"
 _SAME: Final = 1.0e-12

@@ -27,18 +27,18 @@ from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.film import by_address
 from tribodyn.kernels.mechanism.law import address_of
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
+from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.load_terms import fill_load
 from tribodyn.mechanism.assembly.ordering import n_blocks, number_entries, patterns
 from tribodyn.mechanism.assembly.parts_by_number import Model
-from tribodyn.mechanism.assembly.races import axes_of
 from tribodyn.mechanism.elements.element import ForceLaw, Leg
 from tribodyn.mechanism.frames import GROUND, cross, frame
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanism.model.parts import JointKeys, SpringKeys
-from tribodyn.mechanisms.actions import Term, term_records
-from tribodyn.mechanisms.signals import SignalList, integral_of, negated, pieces_of
+from tribodyn.mechanisms.action_intervals import Term, term_records
+from tribodyn.mechanisms.signal_pieces import SignalList, integral_of, negated, pieces_of
 from tribodyn.wear import resampled
 
 _MEASURES: Final = {"coordinate": kinds.COORDINATE, "distance": kinds.DISTANCE, "path": kinds.PATH}

@@ -7,11 +7,17 @@ clearances until contact gives what that motion asks of the joints, by
 
 from __future__ import annotations
 
+import math
+from typing import Final
+
+import numpy as np
+
 from tribodyn.core.arrays import FloatArray
+from tribodyn.kernels import dense
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.decompositions import shortest
 from tribodyn.mechanism.assembly.equilibrium import JointLoads
-from tribodyn.mechanism.assembly.settling import settled
 from tribodyn.mechanism.assembly.start_speeds import speeds_of
 
 
@@ -35,3 +41,98 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     # Displaced within their clearances, bodies stay where as many constraints are independent.
     loads.ideal.known_rank, loads.real.known_rank = loads.ideal.rank(), loads.real.rank()
     return settled(loads)
+
+
+_MOST_LOOKS: Final = 20
+_PLAIN_LOOKS: Final = 8
+"""Looks after which the stiffness is found by looking: where a force vanishes, little else has any."""
+_MOST_STEPS: Final = 100
+_SETTLED: Final = 1.0e-3
+"""Change of a gap, over the roughness, that counts as zero."""
+_BALANCED: Final = 1.0e-6
+"""Load over the largest one met on the way that counts as zero."""
+_LEAST: Final = 1.0
+"""Stiffness of springs where there is no contact yet [N/m]."""
+_FLOOR: Final = 1.0e-6
+"""The same over the largest stiffness."""
+_STIFFER: Final = 4.0
+_SOFTER: Final = 3.0
+"""Factors by which springs change."""
+_BACK: Final = 0.5
+"""Share of the load along a step that may have turned against it."""
+_NEARER: Final = 4.0
+"""Factor by which bodies that do not come to rest count as near from look to look."""
+_FAR: Final = 0.5
+"""Part of the largest gap of a joint that a step may not pass."""
+_SHORT: Final = 0.1
+"""Longest step along freedoms, turns [rad] and lengths over the size of the mechanism."""
+_FINE: Final = 1.0e-4
+"""Step along freedoms, in the same units, that counts as the roughness."""
+
+
+def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:
+    """Move the bodies to where their loads balance; return the state there, or None.
+
+    Parameters
+    ----------
+    loads
+        With the bodies where the search begins.
+    change
+        Change of gaps, over the roughness, that counts as zero.
+    near
+        Change of gaps, over the roughness, after which the possible motions are not looked for again; it
+        grows from look to look.
+    """
+    soft, quiet = 0.0, False
+    for look in range(_MOST_LOOKS):
+        if near and look >= _PLAIN_LOOKS:
+            loads.survey()
+        else:
+            loads.look()
+        if quiet and loads.unbalance() <= _BALANCED:
+            return loads.state
+        steps, moved, soft = _newton(loads, soft, change) if loads.motions.size else (0, 0.0, soft)
+        if loads.waits:
+            loads.waits = False
+            continue
+        if steps == 0:
+            return loads.state if loads.overlapping() is None else None
+        quiet = moved < near and loads.overlapping() is None
+        if loads.lost() is not None:
+            return None
+        # Where a force passes through zero its shaft lies anywhere, and no look is the last.
+        near *= _NEARER
+    return None
+
+
+def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, float]:
+    """Make steps until one changes nothing; return their number and changes, and the stiffness of springs.
+
+    Springs under all nodes, of stiffness ``soft`` [N/m] in each joint, hold a step where contact does not.
+    They are stiffer after a step that overshoots the place where the loads along it balance, else softer.
+    """
+    residual, moved = loads.residual(), 0.0
+    for steps in range(_MOST_STEPS):
+        stiffness, even = loads.stiffness()
+        soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
+        for _ in range(_MOST_STEPS):
+            step = shortest(stiffness + soft * even, residual)
+            far = loads.turned(step)
+            step = step if far <= _SHORT else step * (_SHORT / far)
+            change, way = loads.change(step)
+            if way < _FAR:
+                loads.move(step)
+                after = loads.residual()
+                if dense.product(after, step) >= -_BACK * dense.product(residual, step) or (
+                    loads.over_loads and dense.norm(after) <= _BALANCED * loads.largest
+                ):
+                    break
+                loads.undo(step)
+            soft *= _STIFFER
+        else:
+            return _MOST_STEPS, math.inf, soft
+        residual, soft, moved = after, soft / _SOFTER, moved + change
+        far = min(far, _SHORT)
+        if max(change, far / _FINE) < least and dense.norm(after) <= _BALANCED * loads.largest:
+            return steps, moved, soft
+    return _MOST_STEPS, math.inf, soft

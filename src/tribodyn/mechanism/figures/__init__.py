@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.figures import chart, energy, wear
-from tribodyn.figures.base import Animation, Family
+from tribodyn.figures.figure_family import Animation, Family
 from tribodyn.mechanism.figures import animation as film
-from tribodyn.mechanism.figures import joints, mechanism, mode_shapes, solids
+from tribodyn.mechanism.figures import joints, mechanism
 from tribodyn.mechanism.results.readings import BALANCES
 from tribodyn.mechanism.sections.charts import CHARTS
 
@@ -15,7 +15,7 @@ FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         mechanism.FAMILY,
-        mode_shapes.FAMILY,
+        mechanism.MODE_SHAPES,
         *map(chart.family, CHARTS),
         joints.ORBITS,
         joints.PRESSURE,
@@ -26,4 +26,4 @@ FIGURES: Final[dict[str, Family]] = {
     )
 }
 
-ANIMATION: Final = Animation(film.MechanismFilm, solids.solids)
+ANIMATION: Final = Animation(film.MechanismFilm, film.solids)

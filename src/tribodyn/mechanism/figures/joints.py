@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, caption, finish, note, sheet
 from tribodyn.figures.unrolled import COLOURS
 from tribodyn.mechanism.sections.joints import LAID_FLAT, MOST, WORN, real_joints, surfaces

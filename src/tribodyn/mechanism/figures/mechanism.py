@@ -1,4 +1,4 @@
-"""The mechanism at some moments of its cycle, seen from where it is best seen."""
+"""The mechanism at some moments of its cycle, and the shapes of its lowest modes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import GREY, INK, PALE, SMALL, VERMILION, finish, note, sheet
 from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.mechanism.sections.mechanism import at_frames
@@ -135,4 +135,55 @@ FAMILY: Final = Family(
     ),
     needs=("position", "orientation", "body", "joint"),
     draw=draw,
+)
+
+
+MODES: Final = "Shapes of the modes"
+_DRAWN: Final = 3
+"""Modes that are drawn, those of the lowest frequency."""
+_FAR: Final = 0.15
+"""Largest displacement over the size of the mechanism, and largest turn [rad], as drawn."""
+
+
+def draw_modes(dataset: xr.Dataset) -> Figure:
+    """Draw every body at rest, pale, and displaced by a mode, exaggerated."""
+    figure = sheet(dataset, MODES, 3.4)
+    case, modes = case_of(dataset), dataset.isel(time=slice(0, 1), mode=slice(0, _DRAWN))
+    panels = figure.subplots(1, max(modes.sizes["mode"], 1), squeeze=False)[0]
+    if case is None or modes["mode_shape"].size == 0:
+        note(panels[0], "nothing to draw")
+        return figure
+    drawn, position, orientation = skeleton(case), *(modes[n].values[0] for n in ("position", "orientation"))
+    lines = [drawn.lines(body, position[body], orientation[body]) for body in range(len(drawn.bodies))]
+    plane, size = paper(*view(np.concatenate(lines))), np.ptp(np.concatenate(lines), axis=0).max() / MM
+    for number, axes in enumerate(panels):
+        way, turn = (modes[name].values[0, number] for name in ("mode_shape", "mode_rotation"))
+        scale = _FAR / max(np.abs(way).max() / size, np.abs(turn).max())
+        axes.set_aspect("equal")
+        axes.margins(0.12)
+        frequency = (
+            f"mode {modes['mode'].values[number]}, {modes['natural_frequency'].values[0, number]:.4g} Hz"
+        )
+        draw_at(axes, drawn, plane, position, orientation, PALE)
+        draw_at(axes, drawn, plane, position + scale * way, turned(orientation, scale * turn), INK)
+        axes.set_title(frequency)
+        finish(axes, *(direction(row) for row in plane))
+    return figure
+
+
+def turned(orientation: FloatArray, turn: FloatArray) -> FloatArray:
+    """Return quaternions (n, 4) after small turns about global axes [rad], shape (n, 3)."""
+    w, v = orientation[:, :1], orientation[:, 1:]
+    found = np.hstack(
+        [w - 0.5 * np.sum(turn * v, axis=1, keepdims=True), v + 0.5 * (w * turn + np.cross(turn, v))]
+    )
+    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+
+
+MODE_SHAPES: Final = Family(
+    name="mode_shapes",
+    title=MODES,
+    caption="Bodies at the first position at rest, pale, and displaced by the lowest modes, magnified.",
+    needs=("mode_shape", "mode_rotation", "natural_frequency", "mode", "position", "orientation"),
+    draw=draw_modes,
 )

@@ -15,9 +15,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity
 from tribodyn.core.signals import Signal
 from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys
-from tribodyn.mechanisms.actions import inside
-from tribodyn.mechanisms.checks import of_reversals
+from tribodyn.mechanisms.action_intervals import inside
 from tribodyn.mechanisms.peaks import impact_time, of_rows
+from tribodyn.mechanisms.self_checks import of_reversals
 
 PEAKS: Final = (
     Quantity("joint_force", "N", "force in the joint"),

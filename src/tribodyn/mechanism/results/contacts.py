@@ -21,7 +21,7 @@ from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanisms.bushing import loading
-from tribodyn.mechanisms.checks import instant, named, of_contact, of_damping_pressure, of_load
+from tribodyn.mechanisms.self_checks import instant, named, of_contact, of_damping_pressure, of_load
 from tribodyn.wear import resampled
 
 _NOTED: Final = 4

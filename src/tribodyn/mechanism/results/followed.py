@@ -1,8 +1,9 @@
-"""Coordinates that tables of loads follow in a run, as results hold them."""
+"""Columns that follow from observed ones: coordinates of tables, efforts and power of drives."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -14,6 +15,7 @@ from tribodyn.kernels import dense
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.element import Leg
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.mechanism_variables import Observed
 from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 
 _Z: Final = 2
@@ -89,3 +91,36 @@ def _along(leg: Leg, couplings: Mapping[str, FloatArray], number: int) -> FloatA
     way = couplings["displacement" if leg.measure == "distance" else "relative_velocity"][:, number]
     size = np.linalg.norm(way, axis=-1)
     return np.asarray(np.sum(force * way, axis=-1) / np.where(size > 0.0, size, 1.0))
+
+
+INPUTS: Final = ("relative_rate", "relative_velocity")
+"""Rates of joints that power is computed from, beside the efforts of drives."""
+
+
+def with_motors(model: Model, found: Observed) -> Observed:
+    """Return rows whose moments and forces of drives contain those of motors and controllers."""
+    couplings, leg = found.couplings, model.first_leg
+    efforts = {name: couplings[name].copy() for name in ("drive_moment", "drive_force")}
+    for element in model.elements:
+        if element.keys.IS_DRIVE:
+            joint = element.keys.named_joints["joint"][0]
+            number, sign = model.joints.index(joint), model.case.joints[joint].sign
+            efforts["drive_moment"][:, number] += sign * couplings["reaction_moment"][:, leg, _Z]
+            efforts["drive_force"][:, number] += sign * couplings["reaction_force"][:, leg, _Z]
+        leg += len(element.legs)
+    return replace(found, couplings={**couplings, **efforts})
+
+
+def power_columns(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Return the power of the drives of each joint [W], shape (n_t, n_joints), and the work of loads [J].
+
+    Those that the mechanism has: ``couplings`` are of rows with motors.
+    """
+    case, n, found = model.case, len(model.joints), {}
+    if case.has_drives:
+        moment, force = couplings["drive_moment"][:, :n], couplings["drive_force"][:, :n]
+        rate, velocity = (couplings[name][:, :n, _Z] for name in INPUTS)
+        found["drive_power"] = moment * rate + force * velocity
+    if case.loads:
+        found["energy_loads"] = np.sum(couplings["joint_work"][:, n : model.first_leg], axis=1)
+    return found

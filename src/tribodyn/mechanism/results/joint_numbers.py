@@ -19,7 +19,7 @@ from tribodyn.mechanism.results.readings import (
     of_surfaces,
     offset,
 )
-from tribodyn.mechanisms.base import ByPart
+from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import column, of_part, peak, rms, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import wear_life, wear_rate

@@ -15,7 +15,7 @@ from tribodyn.kernels.film.data import CONVERGED
 from tribodyn.kernels.mechanism.data import INTACT, OPENED, OVERLAPPED, Now
 from tribodyn.lubrication import explain
 from tribodyn.mechanism.assembly.parts_by_number import Model
-from tribodyn.mechanisms.checks import ENERGY_LIMIT, beyond_law, of_steps
+from tribodyn.mechanisms.self_checks import ENERGY_LIMIT, beyond_law, of_steps
 
 GAP_LIMIT: Final = 1.0e-9
 """Residual of a constraint, in m or rad, below which nobody sees it."""

@@ -18,7 +18,7 @@ from tribodyn.mechanism.results.readings import (
     offset,
     sizes,
 )
-from tribodyn.mechanisms.base import ByPart
+from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import (
     column,
     in_settled,

@@ -18,7 +18,7 @@ from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.run_keys import ROWS
 from tribodyn.mechanisms.bushing import of_clearances, of_heat
-from tribodyn.mechanisms.checks import named
+from tribodyn.mechanisms.self_checks import named
 from tribodyn.wear import loaded_depth
 
 _FRICTION: Final = "joint.friction_coefficient"

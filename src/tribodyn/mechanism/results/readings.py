@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.base import plain
+from tribodyn.mechanisms.mechanism_protocol import plain
 from tribodyn.results.reading import column, entries, of_part
 from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
 

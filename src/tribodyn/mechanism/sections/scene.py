@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanism.assembly.races import axes_of
+from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.mechanism_case import MechanismCase

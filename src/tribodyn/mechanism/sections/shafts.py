@@ -10,8 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.views.dense import LINE_ERROR, dense_times
-from tribodyn.views.playback import in_playback
+from tribodyn.views.playback import LINE_ERROR, dense_times, in_playback
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.figures.save import save_png
+from tribodyn.figures.figure_family import save_png
 from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, split, trunnion, undamped, wear
 from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown

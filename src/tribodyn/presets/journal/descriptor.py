@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms.base import MechanismDescriptor
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.results import KEY_RESULTS, VARIABLES
 

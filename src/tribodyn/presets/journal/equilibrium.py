@@ -21,7 +21,7 @@ from tribodyn.kernels import dense
 from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
 from tribodyn.kernels.joints.bushing import report, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
-from tribodyn.lubrication.film import Film
+from tribodyn.lubrication.oil_film import Film
 from tribodyn.mechanisms.balance import damped_newton
 
 _START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)

@@ -17,8 +17,8 @@ from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanism.mechanism_variables import observed
 from tribodyn.mechanism.system import MechanismSystem
-from tribodyn.mechanisms.base import FinishedRun, ResultPart
 from tribodyn.mechanisms.bushing import bushing_facts, bushing_of
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, Loads, equilibrium

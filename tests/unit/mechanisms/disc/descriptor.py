@@ -6,7 +6,7 @@ from falling_disc.case import DiscCase
 from falling_disc.variables import VARIABLES
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.mechanisms.base import MechanismDescriptor
+from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.results.reading import column, peak
 from tribodyn.results.summary import KeyResult
 

@@ -11,7 +11,7 @@ from falling_disc.case import DiscCase
 
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.kernels.jit import entry
-from tribodyn.mechanisms.base import FinishedRun, ResultPart
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
 
 GRAVITY = 9.81
 NAMES = ("height", "floor_force", "energy_lost")

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.checks import (
+from tribodyn.mechanisms.self_checks import (
     ENERGY_LIMIT,
     LIFT_OFF_LIMIT,
     TIGHTEN,

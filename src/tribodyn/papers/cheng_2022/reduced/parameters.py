@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
-from tribodyn.mechanisms.actions import Term, crossings
+from tribodyn.mechanisms.action_intervals import Term, crossings
 from tribodyn.mechanisms.peaks import impact_time
 
 if TYPE_CHECKING:

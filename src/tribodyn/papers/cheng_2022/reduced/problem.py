@@ -26,8 +26,8 @@ from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.observe import observe
 from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
-from tribodyn.mechanisms.actions import WAVE_STEPS, actions_of, shortest_wave
-from tribodyn.mechanisms.signals import SignalList, pieces_of
+from tribodyn.mechanisms.action_intervals import WAVE_STEPS, actions_of, shortest_wave
+from tribodyn.mechanisms.signal_pieces import SignalList, pieces_of
 from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import FORMULATIONS, CrankMotion, Vsv

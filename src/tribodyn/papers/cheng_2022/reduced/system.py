@@ -22,7 +22,6 @@ from tribodyn.joints.bushing import contact_energy
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import BEYOND, BEYOND_LAW
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
-from tribodyn.mechanisms.base import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.bushing import (
     bushing_facts,
     bushing_of,
@@ -31,12 +30,13 @@ from tribodyn.mechanisms.bushing import (
     of_temperature,
     on_finer_grid,
 )
-from tribodyn.mechanisms.checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.flash import flash_of_bushing
+from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, limits_of
 from tribodyn.mechanisms.output_numbers import lives, shaft_displacements
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
+from tribodyn.mechanisms.self_checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warnings
@@ -93,7 +93,7 @@ def vsv_of(case: VsvCase) -> Vsv:
 
 @dataclass(frozen=True)
 class VsvSystem:
-    """The mechanism of a case; see :class:`~tribodyn.mechanisms.base.WearingSystem`."""
+    """The mechanism of a case; see :class:`~tribodyn.mechanisms.mechanism_protocol.WearingSystem`."""
 
     case: VsvCase
     begin: float = 0.0

@@ -12,7 +12,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Following
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.actions import crossings
+from tribodyn.mechanisms.action_intervals import crossings
 from tribodyn.mechanisms.playback import distinct
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Lengths, TableDrive, Vsv

@@ -7,7 +7,7 @@ from typing import Final, cast
 
 from tribodyn.cases.materials import MATERIALS
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.checks import HARDNESS_LIMIT, of_load
+from tribodyn.mechanisms.self_checks import HARDNESS_LIMIT, of_load
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot

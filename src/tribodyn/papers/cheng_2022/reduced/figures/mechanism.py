@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
+from tribodyn.figures.figure_family import Family
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip, ring_points
 from tribodyn.views.series import finite, series

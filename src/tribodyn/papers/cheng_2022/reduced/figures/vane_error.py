@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.base import Family
-from tribodyn.figures.reversals import mark_reversals
+from tribodyn.figures.chart import mark_reversals
+from tribodyn.figures.figure_family import Family
 from tribodyn.papers.cheng_2022.reduced.sections.vane_error import DEG, ERROR, error
 from tribodyn.views.events import direction, reversal_times
 from tribodyn.views.series import peak, series

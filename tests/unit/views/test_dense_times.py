@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.splines import Cubics
-from tribodyn.views.dense import dense_times
+from tribodyn.views.playback import dense_times
 
 FALL = np.array([0.0, -9.81])
 TIME = np.array([0.0, 0.01, 0.03, 0.04])

@@ -16,7 +16,7 @@ from tribodyn.joints.shapes import Cylinder
 from tribodyn.mechanism.results import mechanism_checks as general_checks
 from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.mechanisms.checks import (
+from tribodyn.mechanisms.self_checks import (
     AREA_LIMIT,
     CLIP_LIMIT,
     ENERGY_LIMIT,

@@ -27,7 +27,7 @@ from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:
-    from tribodyn.figures.base import Animation, Family
+    from tribodyn.figures.figure_family import Animation, Family
     from tribodyn.mechanisms.bushing import Bearing
     from tribodyn.views.overlay import Overlay
     from tribodyn.views.section import Chapter

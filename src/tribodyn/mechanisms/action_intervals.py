@@ -14,7 +14,7 @@ from tribodyn.core.signals import Signal
 from tribodyn.kernels import actions as kinds
 from tribodyn.kernels.actions import Actions
 from tribodyn.kernels.arrays import new_records
-from tribodyn.mechanisms.signals import NO_KINKS, SignalList, pieces_of
+from tribodyn.mechanisms.signal_pieces import NO_KINKS, SignalList, pieces_of
 
 TIME: Final = 0
 """The first of the coordinates that signals may follow."""

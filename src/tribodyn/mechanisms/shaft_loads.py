@@ -12,7 +12,7 @@ from tribodyn.cases.beyond import lasts_a_cycle
 from tribodyn.cases.loads import BodyLoad
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, for_each_cycle, scaled, sinusoid
-from tribodyn.mechanisms.actions import Factors, Term
+from tribodyn.mechanisms.action_intervals import Factors, Term
 
 Targets = Mapping[int, tuple[int, float]]
 """Number and sign of the load that a component is: 0 to 2 of the force, 3 to 5 of the right-handed moment."""
