@@ -106,7 +106,7 @@ bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
 
 lock:
-	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --extra all --no-emit-package mebdf pyproject.toml -o requirements.lock
+	uv pip compile --upgrade --generate-hashes --universal --no-header --python-version 3.11 --all-extras --no-emit-package mebdf pyproject.toml -o requirements.lock
 	uv pip compile --generate-hashes --universal --no-header --python-version 3.11 -c requirements.lock --no-emit-package mebdf pyproject.toml -o tools/container.lock
 
 clean:
