@@ -22,6 +22,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.figure import Figure
 
     from tribodyn.figures.figure_family import Family
@@ -55,6 +56,33 @@ class Accessor:
         from tribodyn.mechanisms.results import summarise
 
         return summarise(self._dataset)
+
+    def to_dataframe(self, *names: str, over: str | None = None) -> pd.DataFrame:
+        """Return columns over time as a table, a row for each time, with the unit of each in its header.
+
+        The method of this name that every dataset has makes a row for each time, joint, body, node and frame
+        together, which no memory holds.
+
+        Parameters
+        ----------
+        names
+            Groups (``"outputs"``, ``"motion"``, ``"forces"``, ``"moments"``, ``"pressures"``, ``"energies"``,
+            ``"powers"``), variables, or variables with labels after points, as ``"reaction_force.wrist.x"``.
+        over
+            A joint whose angle comes first [deg], or the name of a column.
+
+        Raises
+        ------
+        InputError
+            The result has no such group, variable or label.
+
+        Examples
+        --------
+        >>> result.tribodyn.to_dataframe("forces", over="main")  # doctest: +SKIP
+        """
+        from tribodyn.results.columns import table
+
+        return table(self._dataset, names, over=over)
 
     def animate(self, path: str | PathLike[str], *, seconds: float = 6.0) -> Path:
         """Write the last cycle of a user-defined mechanism as a film, or as solids that move.

@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.results.columns import variable
 from tribodyn.studies.calibration import STEP, Calibration
 from tribodyn.studies.least_squares import LeastSquares
-from tribodyn.studies.measured import variable
 
 TRADING: Final = 0.95
 """Correlation from which on two keys trade off."""
@@ -86,7 +86,7 @@ def _gains(middle: xr.Dataset, moved: Sequence[xr.Dataset]) -> Iterator[tuple[st
     times = np.linspace(0.0, last, _TIMES)
     for name in _names(middle):
         base, *others = (
-            np.interp(times, run["time"].values, variable(run, name)) for run in (middle, *moved)
+            np.interp(times, run["time"].values, variable(run, name, "--data")) for run in (middle, *moved)
         )
         size, whole = float(np.ptp(base)), middle[name.partition(".")[0]].values
         if size <= max(_ROUNDING * float(np.ptp(whole)), _NOTHING):

@@ -17,7 +17,6 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -33,6 +32,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.results import summarise
+from tribodyn.results.columns import unit_of, variable
 from tribodyn.views.events import impact_windows
 
 OPTION: Final = "--data"
@@ -40,7 +40,6 @@ LARGEST: Final = 20_000_000
 QUANTITY: Final = "quantity"
 _PLAIN: Final = {"1": 1.0, "-": 1.0, "%": 0.01}
 """Units of plain numbers."""
-_POWER: Final = re.compile(r"([A-Za-z]+)-([0-9])")
 
 
 @dataclass(frozen=True)
@@ -67,7 +66,7 @@ class MeasuredCurve:
 
     def computed(self, run: xr.Dataset) -> FloatArray:
         """Return the values of a run at the times of the curve, SI units, shape (n,)."""
-        series = variable(run, self.name)
+        series = variable(run, self.name, OPTION)
         time = run["time"].values
         if self.times[-1] > time[-1] * (1.0 + 1e-9):
             raise InputError(
@@ -164,27 +163,6 @@ class Experiment:
     data: Measured
 
 
-def variable(run: xr.Dataset, name: str) -> FloatArray:
-    """Return a variable of a result over time, SI units, shape (n,), by a name with labels after points."""
-    first, *labels = name.split(".")
-    over_time = [str(one) for one in run.data_vars if run[one].dims[:1] == ("time",)]
-    if first not in over_time:
-        raise InputError(
-            f"no variable {as_given(first)} over time; allowed: {', '.join(over_time)}"
-            f"{meant(first, over_time)}",
-            key=OPTION,
-        )
-    found = run[first]
-    for label in labels:
-        dims = [dim for dim in found.dims[1:] if label in found[dim].values.tolist()]
-        if not dims:
-            raise InputError(f"{as_given(name)}: no label {as_given(label)} in {_labels(found)}", key=OPTION)
-        found = found.sel({dims[0]: label})
-    if found.ndim != 1:
-        raise InputError(f"{as_given(name)}: add a label for each of {_labels(found)}", key=OPTION)
-    return np.asarray(found.values, dtype=np.float64)
-
-
 def read(path: str | Path, run: xr.Dataset) -> Measured:
     """Return the data of a file, checked against a run.
 
@@ -232,7 +210,8 @@ def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Datase
         raise InputError("the times must rise from row to row", key=OPTION)
     curves = []
     for k, (name, unit) in enumerate(columns[1:], 1):
-        like = _unit_of(run, name)
+        variable(run, name, OPTION)
+        like = unit_of(run, name)
         values, (zero, one) = _column(rows, k, unit, like), _zero_and_one(k, unit, like)
         curves.append(MeasuredCurve(name, unit, one - zero, times, values))
     return curves
@@ -290,16 +269,6 @@ def _float(text: str) -> float:
         raise InputError(f"{as_given(text)} is no number", key=OPTION) from None
 
 
-def _unit_of(run: xr.Dataset, name: str) -> str:
-    """Return the SI unit of a variable as in case files: ``m/s^2`` for ``m s-2``; empty for plain numbers."""
-    variable(run, name)
-    first, *labels = name.split(".")
-    if "output" in run[first].dims and "output_unit" in run:
-        return str(run["output_unit"].sel(output=labels[0]).item())
-    units = str(run[first].attrs.get("units", "1"))
-    return "" if units == "1" else _POWER.sub(r"/\1^\2", units).replace("^1", "").replace(" /", "/")
-
-
 def _values(part: MeasuredCurve | MeasuredNumber) -> FloatArray:
     return part.values if isinstance(part, MeasuredCurve) else np.array([part.value])
 
@@ -320,8 +289,3 @@ def _outside(part: MeasuredCurve | MeasuredNumber, windows: FloatArray) -> Measu
     if not kept.any():
         raise InputError(f"every time of {part.name} lies in an impact", key=OPTION)
     return replace(part, times=part.times[kept], values=part.values[kept])
-
-
-def _labels(found: xr.DataArray) -> str:
-    labels: Mapping[str, list[object]] = {str(dim): found[dim].values.tolist() for dim in found.dims[1:]}
-    return "; ".join(f"{dim}: {', '.join(map(str, some[:12]))}" for dim, some in labels.items()) or "none"

@@ -88,7 +88,7 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_command_imports_no_other_command() -> None:
     program = (
         "import sys\nfrom tribodyn.cli.main import COMMANDS, main\nmain(['new'])\n"
-        "print([name for name in COMMANDS if f'tribodyn.cli.{name}' in sys.modules])"
+        "print([name for name in COMMANDS if f'tribodyn.cli.commands.{name}' in sys.modules])"
     )
     output = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True

@@ -11,10 +11,11 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.core.arrays import FloatArray
+from tribodyn.results.columns import variable
 from tribodyn.studies.calibration import Calibration, VariedKey
 from tribodyn.studies.fit_report import fitted_keys
 from tribodyn.studies.identifiability import statements
-from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve, variable
+from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve
 
 pytestmark = pytest.mark.long
 
@@ -37,7 +38,7 @@ def _measured(run: xr.Dataset, names: Sequence[str], times: FloatArray, seed: in
     random = np.random.default_rng(seed)
     curves = []
     for name in names:
-        values = np.interp(times, run["time"].values, variable(run, name))
+        values = np.interp(times, run["time"].values, variable(run, name, "--data"))
         values = values + random.normal(0.0, NOISE * np.ptp(values), values.size)
         curves.append(MeasuredCurve(name, "", 1.0, times, values))
     return Measured(tuple(curves), "")
