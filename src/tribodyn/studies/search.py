@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -40,14 +40,20 @@ class Limit:
     name
         Name in ``summary.json``.
     value
-        In the unit of the number.
+        In the unit of the number; a change in per cent where it is relative.
     at_least
         Whether the number must not be below it; else it must not be above it.
+    relative
+        Whether it is a change of the number of the case as it is.
+    others
+        Key results that have the words of the one asked for, too.
     """
 
     name: str
     value: float
     at_least: bool = False
+    relative: bool = False
+    others: tuple[str, ...] = ()
 
     @property
     def sign(self) -> str:
@@ -57,6 +63,12 @@ class Limit:
     def is_kept(self, number: float) -> bool:
         """Return whether a number keeps the limit."""
         return number >= self.value if self.at_least else number <= self.value
+
+    def of(self, number: float) -> Limit:
+        """Return the limit in the unit of the number, which the case as it is has so."""
+        if not self.relative:
+            return self
+        return replace(self, value=number * (1.0 + self.value / 100.0), relative=False)
 
 
 @dataclass(frozen=True)
@@ -78,6 +90,18 @@ class Question:
     low: float
     high: float
     until: Limit
+
+    @property
+    def present(self) -> float:
+        """The value of the case as it is, SI."""
+        value = self.case.at(self.key.path)
+        if not isinstance(value, float):
+            raise InputError(
+                "the case has no value that a change in per cent could be of",
+                key=self.key.path,
+                source=SOURCE,
+            )
+        return value
 
     @property
     def key_result(self) -> KeyResult:
@@ -107,6 +131,14 @@ class Search:
     watcher: Watcher
     tried: dict[float, float] = field(default_factory=dict)
 
+    @property
+    def limit(self) -> Limit:
+        """The limit in the unit of the number; a relative one after a run of the case as it is."""
+        asked = self.question
+        if not asked.until.relative:
+            return asked.until
+        return asked.until.of(self._numbers([asked.present])[0])
+
     def root(self, within: float = WITHIN) -> float:
         """Return a value at which the number keeps the limit, at most so far from where it reaches it, SI.
 
@@ -122,9 +154,9 @@ class Search:
         """
         from scipy.optimize import brentq
 
-        asked = self.question
+        asked, limit = self.question, self.limit
         at_ends = self._numbers([asked.low, asked.high])
-        if (at_ends[0] - asked.until.value) * (at_ends[1] - asked.until.value) > 0.0:
+        if (at_ends[0] - limit.value) * (at_ends[1] - limit.value) > 0.0:
             raise TribodynError(self._not_between(at_ends))
         xtol = within * abs(asked.high - asked.low)
         found = float(brentq(self._excess, asked.low, asked.high, xtol=xtol, rtol=4 * math.ulp(1.0)))
@@ -132,12 +164,12 @@ class Search:
 
     def _kept(self, root: float, within: float) -> float:
         """Return the value nearest to a root, or so far from it, at which the limit is kept."""
-        asked = self.question
-        upwards = asked.until.is_kept(self.tried[asked.high])
+        asked, limit = self.question, self.limit
+        upwards = limit.is_kept(self.tried[asked.high])
         for step in (0.0, 0.5 * within, within):
             value = _readable(root + step if upwards else root - step)
             value = min(max(value, asked.low), asked.high)
-            if asked.until.is_kept(self._numbers([value])[0]):
+            if limit.is_kept(self._numbers([value])[0]):
                 return value
         low, high = self.bracket()
         return high if upwards else low
@@ -149,7 +181,7 @@ class Search:
     def bracket(self) -> tuple[float, float]:
         """Return the values nearest to each other between which the number passes the limit, SI."""
         values = sorted(self.tried)
-        limit = self.question.until.value
+        limit = self.limit.value
         pairs = pairwise(values)
         return min(
             ((a, b) for a, b in pairs if (self.tried[a] - limit) * (self.tried[b] - limit) <= 0.0),
@@ -157,7 +189,7 @@ class Search:
         )
 
     def _excess(self, value: float) -> float:
-        return self._numbers([_readable(value)])[0] - self.question.until.value
+        return self._numbers([_readable(value)])[0] - self.limit.value
 
     def _numbers(self, values: Sequence[float]) -> list[float]:
         missing = [value for value in values if value not in self.tried]
@@ -186,7 +218,7 @@ class Search:
             for number, end in zip(at_ends, (asked.low, asked.high), strict=True)
         )
         return (
-            f"{asked.until.name} is {low} and {high}: it does not pass {asked.until.value:g} between them; "
+            f"{asked.until.name} is {low} and {high}: it does not pass {self.limit.value:.4g} between them; "
             "search a wider range, or another limit"
         )
 
@@ -212,8 +244,8 @@ def find(
     between
         The range that is searched, such as ``"10..60 um"``; the number must pass the limit in it.
     until
-        Key result and the most that it may be, in its unit, such as ``"vane_angle_error_max_deg=0.03"``; with
-        ``>=`` the least.
+        Key result and the most that it may be, in its unit, such as ``"vane_angle_error_max_deg=0.03"``, or
+        a change against the case as it is, ``"error_rms_um_tip=-20 %"``; with ``>=`` the least.
     within
         How near to the limit the value is found, as a share of the range.
     directory
@@ -298,7 +330,8 @@ def _read(key: Key, text: str) -> float:
 def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
     """Return a limit on a number of a case, ``NAME=NUMBER`` or ``NAME>=NUMBER``, in the unit of the number.
 
-    With ``>=`` it is the least that the number may be, where a question can be asked that way.
+    Where such a question can be asked, with ``>=`` it is the least that the number may be, and ``NAME=-20 %``
+    is a change against the case as it is.
 
     A part of the name will do: ``contact_max_N`` is ``contact_force_max_N``, the first with all its words.
 
@@ -311,18 +344,22 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
     at_least, name = name.endswith(">"), name.rstrip("<> ")
     known = key_results_of_case(case)
     words = name.split("_")
-    full = name if name in known else next((n for n in known if set(words) <= set(n.split("_"))), None)
+    matching = [name] if name in known else [one for one in known if set(words) <= set(one.split("_"))]
+    relative = least and number.endswith("%")
     try:
-        value = float(number)
+        value = float(number.removesuffix("%") if relative else number)
     except ValueError:
         value = math.nan
+    allowed = "NAME=NUMBER, such as tilt_max_mrad=2" + (
+        ", or NAME=-20 % of the case as it is" if least else ""
+    )
     if not equals or not math.isfinite(value):
-        raise InputError(f"{as_given(text)}; allowed: NAME=NUMBER, such as tilt_max_mrad=2", key=option)
+        raise InputError(f"{as_given(text)}; allowed: {allowed}", key=option)
     if at_least and not least:
         raise InputError(f"{as_given(text)}; points that do not exceed a limit are counted", key=option)
-    if full is None:
+    if not matching:
         raise InputError(f"{as_given(name)}; not a key result; {nearest(name, known)}. {LISTED}", key=option)
-    return Limit(full, value, at_least)
+    return Limit(matching[0], value, at_least, relative, tuple(matching[1:]))
 
 
 def no_run_has(name: str, dataset: xr.Dataset) -> str:

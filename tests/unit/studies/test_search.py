@@ -27,6 +27,19 @@ def test_the_limit_is_found_where_it_is(simulated: list[Any]) -> None:
     assert len(simulated) < 30
 
 
+def test_a_limit_may_be_a_change_against_the_case_as_it_is(
+    simulated: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # The built-in case has 20 um, so 2000 N: a quarter less is 1500 N.
+    found = td.studies.find("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=-25 %", within=0.001)
+    assert found == pytest.approx(15e-6, abs=0.1e-6)
+    assert found <= 15e-6
+    assert main([*FIND, "contact_force_max_N>=+10%", "-o", str(tmp_path)]) == 0
+    assert "Contact force, peak: at least 2200 N at joint.clearance = 22" in capsys.readouterr().out
+    with pytest.raises(InputError, match=r"allowed: NAME=NUMBER, such as tilt_max_mrad=2$"):
+        limit("contact_force_max_N=5 %", td.load_case("vsv"), "--limit", least=False)
+
+
 def test_a_second_search_goes_on_with_what_is_there(simulated: list[Any], tmp_path: Path) -> None:
     asked = ("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=2250")
     first = td.studies.find(*asked, directory=tmp_path)
@@ -88,12 +101,21 @@ def test_a_number_of_a_joint_is_asked_for_by_its_name() -> None:
         limit("offset_max_um_wrisd=30", crank, "--until")
 
 
+def test_the_one_taken_of_several_numbers_is_named() -> None:
+    crank = td.load_case("slider-crank")
+    until = limit("lasting_N=30", crank, "--until")
+    assert until.name == "joint_force_lasting_N"
+    assert {"force_lasting_N_wrist", "force_lasting_N_crankpin"} <= {*until.others}
+    assert limit("error_max_um_slider=30", crank, "--until").others == ()
+
+
 def test_the_command_prints_the_answer(
     simulated: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert main([*FIND, "contact_max_N=2250"]) == 0  # a part of the name will do
-    out = capsys.readouterr().out
+    out, err = capsys.readouterr()
+    assert "contact_force_max_N is taken" not in err
     assert "Contact force, peak: at most 2250 N at joint.clearance = 22." in out
     assert float(out.split("where it is ")[1].split(" N")[0]) <= 2250.0
     low, high = (

@@ -39,7 +39,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="NAME=LIMIT",
         required=True,
         help="the most that a number of summary.json may be, in its unit: vane_angle_error_max_deg=0.03; "
-        "with >= the least",
+        "with >= the least; error_rms_um_tip=-20%% is a change against the case as it is",
     )
     parser.add_argument(
         "--within",
@@ -68,7 +68,10 @@ def execute(args: Namespace) -> int:
         raise InputError(
             f"{as_given(args.vary)}; allowed: PATH=A..B, such as joint.clearance=10..60um", key="--vary"
         )
-    asked = question(case, path, values, limit(args.until, case, "--until"))
+    until = limit(args.until, case, "--until")
+    if until.others:
+        console.note(f"{until.name} is taken; {', '.join(until.others)} would match, too")
+    asked = question(case, path, values, until)
     directory = OutputDirectory(f"find-{Path(args.case).stem}" if args.output is None else args.output)
     with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
         last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
@@ -93,7 +96,7 @@ def _tell(search: Search, root: float, console: Console) -> None:
     """Print the tried values and the answer."""
     from tribodyn.cases.keys import VALUE
 
-    asked, limit = search.question, search.question.until
+    asked, limit = search.question, search.limit
     unit = asked.key_result.unit
     for value in sorted(search.tried):
         console.say(f"  {_shown(asked, value):<16}{search.tried[value]:>12.4g} {unit}")
@@ -101,7 +104,7 @@ def _tell(search: Search, root: float, console: Console) -> None:
     label, path = asked.key_result.label, asked.key.path.removesuffix(f".{VALUE}")
     reached = f"{search.tried[root]:.4g} {unit}".rstrip()
     console.say(
-        f"\n{label}: {limit.sign} {limit.value:g} {unit}".rstrip()
+        f"\n{label}: {limit.sign} {limit.value:.6g} {unit}".rstrip()
         + f" at {path} = {_shown(asked, root)}, where it is {reached}"
     )
     console.say(
