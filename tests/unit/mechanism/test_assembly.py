@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -73,6 +75,22 @@ def test_freedoms_and_redundancy(model: Model, freedoms: int, redundant: int) ->
     number = 0 if assembly.redundancy is None else assembly.redundancy.number
     assert number == redundant
     assert (f"{redundant} constraint" in "".join(assembly.warnings)) == (redundant > 0)
+
+
+@pytest.mark.parametrize(
+    ("guided", "said"),
+    [
+        (True, "0 with ideal joints (fully driven); clearances free 2 more"),
+        (False, "2 with ideal joints: slider is held by wrist only; clearances free 5 more"),
+    ],
+)
+def test_degrees_of_freedom_are_told_apart(guided: bool, said: str, tmp_path: Path) -> None:
+    # Guided, the pin moves in its bore in the plane alone; else it tilts and slides along the bore, too.
+    text = td.load_case("slider-crank").to_toml()
+    if not guided:
+        text = re.sub(r"(?ms)^\[(joints\.guide|outputs\.slider(\.at)?)\]$.*?(?=^\[)", "", text)
+    (tmp_path / "drawn.toml").write_text(text, encoding="utf-8")
+    assert f"degrees of freedom: {said}" in td.check(td.load_case(tmp_path / "drawn.toml"))
 
 
 def weighted(factors: tuple[float, float, float]) -> Model:

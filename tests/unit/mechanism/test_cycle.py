@@ -88,7 +88,7 @@ def test_freedoms_that_drives_leave_do_not_lock_a_mechanism() -> None:
         .revolute("d", "third", "ground", point="125, 0, 0 mm", axis=[0, 0, 1])
         .drive("motor", "main", speed="600 rpm")
     )
-    assert "1 degree of freedom" in said(drawn)
+    assert "degrees of freedom: 1 with ideal joints" in said(drawn)
 
 
 def test_mechanisms_are_led_through_again_where_ideal_joints_or_drives_differ(

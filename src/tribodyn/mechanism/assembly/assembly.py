@@ -63,6 +63,8 @@ class Assembly:
         What the kernels read.
     ideal_rank
         Number of independent constraints if all joints were ideal; in a mechanism with loops.
+    ideal_freedoms
+        Degrees of freedom that drives would leave if all joints were ideal; None where those do not fit.
     findings_if_ideal
         What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
         when it is led through its cycle.
@@ -81,6 +83,7 @@ class Assembly:
     state: FloatArray
     data: MechanismData
     ideal_rank: int
+    ideal_freedoms: int | None
     findings_if_ideal: tuple[ModelError, ...] = ()
     ideal_data: MechanismData | None = None
     strain: str = ""
@@ -102,9 +105,21 @@ class Assembly:
     @property
     def remarks(self) -> tuple[str, ...]:
         """Remarks on it, in words."""
-        n = self.freedoms
-        free = "no degree of freedom is left" if n == 0 else f"{n} degree{'s' * (n > 1)} of freedom"
-        return free, *self.warnings, *self.notes
+        return f"degrees of freedom: {self._freedoms}", *self.warnings, *self.notes
+
+    @property
+    def _freedoms(self) -> str:
+        """Degrees of freedom in words: of ideal joints, with what holds too little, and of clearances."""
+        ideal = self.ideal_freedoms
+        if ideal is None:
+            return f"{self.freedoms}; ideal joints do not fit"
+        why = ""
+        if ideal == 0:
+            why = " (fully driven)" if self.model.case.drives else " (fully held)"
+        elif ends := self.model.held_by_one:
+            why = f": {', '.join(f'{body} is held by {joint} only' for body, joint in ends.items())}"
+        more = self.freedoms - ideal
+        return f"{ideal} with ideal joints{why}" + (f"; clearances free {more} more" if more else "")
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -149,12 +164,16 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     contradictions = _contradictions(system, dependent)
     findings += contradictions
     ideal_rank, ideal = rank, None
+    ideal_rows: int | None = None if model.clearances else rank
     if model.clearances:
         ideal = Misfit(model, System(model.counterpart))
         ideal.system.take_positions(system)
     if ideal and model.has_loops and not (contradictions or open_joints or findings_if_ideal):
         ideal_rank, dependent = ideal.system.independence()
         findings_if_ideal = _contradictions(ideal.system, dependent)
+        ideal_rows = ideal_rank
+    elif ideal and not model.has_loops:
+        ideal_rows = len(ideal.system.rows)
     system.parts.constants.rank = rank
     unequal, inexact = system.unequal(rank)
     contrary = start(system, speeds_of(model), ideal, fits=not findings_if_ideal)
@@ -173,6 +192,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
         state,
         system.data,
         ideal_rank,
+        None if ideal_rows is None else 6 * len(model.bodies) - ideal_rows,
         tuple(findings_if_ideal),
         None if ideal is None else ideal.system.data,
     )

@@ -13,6 +13,7 @@ from itertools import chain
 from tribodyn.joints.clearances import Clearance
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
+from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.parts import JointKeys
@@ -157,6 +158,15 @@ class Model:
         real = {name: clearance for name, clearance in self.clearances.items() if name not in names}
         held = {name: self.case.joints[name].ideal for name in self.clearances if name in names}
         return replace(self, clearances=real, held={**self.held, **held})
+
+    @property
+    def held_by_one(self) -> dict[str, str]:
+        """Bodies that a single joint holds, each with the name of it."""
+        joints: dict[str, list[str]] = {}
+        for name, joint in self.case.joints.items():
+            for body in joint.between:
+                joints.setdefault(body, []).append(name)
+        return {body: names[0] for body, names in joints.items() if len(names) == 1 and body != GROUND}
 
     @property
     def has_loops(self) -> bool:
