@@ -1,7 +1,5 @@
 """Contact laws of rough surfaces, and their tabulation."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import fields

@@ -6,8 +6,6 @@ lies y_s below, and the asperities spread by σ_s < σ. With ξβσ of the surfa
 (σ_s/σ)² = 1 − 3.717e-4/(ξβσ)² (Kogut and Etsion 2003, after Bush, Gibson and Keogh, and Nayak).
 """
 
-from __future__ import annotations
-
 import math
 from abc import abstractmethod
 from collections.abc import Callable

@@ -9,8 +9,6 @@ So e depends on the law and on E₀ alone: speed and mass enter only together, a
 found from the pressure that the same impact would reach without damping.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

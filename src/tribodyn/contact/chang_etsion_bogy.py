@@ -7,8 +7,6 @@ As published, the mean pressure of an asperity jumps from (2/3)KH to KH where it
 surface, an integral over heights, is smooth.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar

@@ -5,8 +5,6 @@ it is not the e given to most published factors unless e is close to 1: see :fun
 is the inverse of that relation. ``kelvin-voigt`` is a dashpot beside the spring instead, K δ + D δ̇.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

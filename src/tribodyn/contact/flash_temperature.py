@@ -10,8 +10,6 @@ add up, within 3 % of Jaeger's integral at any speed:
     ΔT = q a/(k √(1 + π Pe/4)),  Pe = V a/(2 κ).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -9,8 +9,6 @@ F_n(h*) = ∫_0^∞ s^n Φ(h* + s) ds,
 The popular power-law fit of F_{5/2} is 9 % low at h* = 2 and 74 % low at 3 and is not used.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar

@@ -5,8 +5,6 @@ Hertzian asperities of one radius: load (4/3)E√β δ^1.5, area πβδ. With F_
     P = (4/3) E ξβσ √(σ/β) F_{3/2}(h*),   A/A_n = π ξβσ F_1(h*),   contacts = ξ F_0(h*).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar

@@ -12,8 +12,6 @@ The load jumps by less than 1 % at w = 1.9, as published. B was fitted for S_y/E
 bound; here it does so up to S_y/E = 0.05 only.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar, Final

@@ -6,8 +6,6 @@ The corner there is rounded over a tenth of σ, as if the roughness were that sm
     P = κσw F_1(h*/w),   w = 0.1,   F_1(x) = ∫_0^∞ s Φ(x + s) ds → −x for x ≪ 0.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar, Final

@@ -14,8 +14,6 @@ sphere follows from the slip velocity u = v_t + R ω of the contact point by one
 Sphere and plate are rigid but for the contact; gravity is left out.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Final, Literal, Protocol

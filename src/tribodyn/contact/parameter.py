@@ -1,7 +1,5 @@
 """Parameters of single laws: a law declares them, and they are keys of ``[contact]`` in case files."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any

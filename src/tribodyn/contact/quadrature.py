@@ -1,7 +1,5 @@
 """Integrals over Gaussian asperity heights."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Final

@@ -4,8 +4,6 @@ Scans (:mod:`tribodyn.surfaces.text`) are read block by block and may be large; 
 (:mod:`tribodyn.cases.columns`) are small and keep the digits as they stand. Both ask here what a line means.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 SEPARATORS: Final = (";", "\t", ",")

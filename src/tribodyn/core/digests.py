@@ -1,7 +1,5 @@
 """SHA-256 of numbers, texts, arrays and records: equal digests mean equal numbers to the last bit."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable, Iterator
 from typing import Any, Final

@@ -4,8 +4,6 @@ A pipe keeps its reader waiting, a device never ends, and either may stand behin
 without waiting, and what was opened is looked at before anything is read from it.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import stat

@@ -1,7 +1,5 @@
 """Threads of the linear algebra that NumPy and SciPy call."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager

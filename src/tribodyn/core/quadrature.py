@@ -1,7 +1,5 @@
 """Points and weights of Gauss and Legendre."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from typing import Final

@@ -1,7 +1,5 @@
 """Quantities by name: the same table makes the record that kernels fill and says what its entries mean."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping, Sequence
 from functools import cache

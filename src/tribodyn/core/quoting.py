@@ -1,7 +1,5 @@
 """Quotation of a user's text in messages."""
 
-from __future__ import annotations
-
 import difflib
 import re
 from collections.abc import Collection

@@ -1,7 +1,5 @@
 """Newest values, by the inputs on which they depend."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Hashable
 from typing import Generic, TypeVar

@@ -4,8 +4,6 @@ The operations are those of LAPACK's ``gtsv`` and of SciPy's ``PPoly`` and ``bis
 the numbers are theirs to the last bit, on any processor.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

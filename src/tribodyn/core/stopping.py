@@ -4,8 +4,6 @@ The question is set once around a run. Whatever computes for longer than a secon
 result needs raises, what a result can do without is skipped.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar

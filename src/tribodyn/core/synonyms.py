@@ -1,7 +1,5 @@
 """Words of other programs and of everyday language, each with the words of this program for it."""
 
-from __future__ import annotations
-
 from typing import Final
 
 SYNONYMS: Final[dict[str, tuple[str, ...]]] = {

@@ -1,7 +1,5 @@
 """Tables that objects fill once and kernels read."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from tribodyn.core.arrays import FloatArray

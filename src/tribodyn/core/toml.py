@@ -8,8 +8,6 @@ Groups are repeated in atomic groups: Python before 3.11.5 matches them wrongly 
 possessively.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 from typing import Any, Final

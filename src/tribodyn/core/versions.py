@@ -1,7 +1,5 @@
 """Versions of packages and of Python."""
 
-from __future__ import annotations
-
 import platform
 from functools import cache
 from importlib import metadata

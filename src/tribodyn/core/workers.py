@@ -6,8 +6,6 @@ user could connect to. A worker starts without the working directory in its impo
 ends, whatever it does then. The caller decides which worker gets which task, and how messages are encoded.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import signal
 import threading

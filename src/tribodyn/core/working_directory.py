@@ -5,8 +5,6 @@ any folder, with ``matplotlibrc`` Matplotlib runs any program, and netCDF's file
 Scripts and notebooks that import this package are left as they are: there the directory is the user's own.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Sequence

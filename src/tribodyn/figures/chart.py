@@ -1,7 +1,5 @@
 """A chart over time as a figure, its reversals marked and kept from flattening what lies between."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Contact force with its rigid and damping parts, and its impact after a reversal."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Shares of joints in the error of an output: bars of the simulation above those of the superposition."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Energy balances: what each term amounts to, and what they miss."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Final

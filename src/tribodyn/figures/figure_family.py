@@ -1,7 +1,5 @@
 """Types of a family of figures and of moving pictures, and figures on disk."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Contact pressure on the unrolled bushing at the snapshots."""
 
-from __future__ import annotations
-
 from string import ascii_lowercase
 from typing import Final, TypeAlias
 

@@ -4,8 +4,6 @@ Nothing here touches matplotlib's global state: no pyplot, no rcParams, so that 
 thread, a test or a notebook without changing what the user set up there.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final, Literal, TypeAlias
 
 import xarray as xr

@@ -1,7 +1,5 @@
 """A measured surface: its heights, their distribution and spectrum, and what the cut-offs do."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Final

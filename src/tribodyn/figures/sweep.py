@@ -5,8 +5,6 @@ names; two that run over numbers give a map; samples, and grids of more paramete
 parameter, samples with their distribution. Points that failed are marked.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Path of the trunnion inside the clearance circle."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Maps on the unrolled bushing."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Wear of the bushing: the worn depth, and its history over a campaign."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

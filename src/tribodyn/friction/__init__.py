@@ -4,8 +4,6 @@ They are plain functions of arrays, for fits and for comparison with measured da
 two surfaces is part of the joints, see ``kernels.joints``.
 """
 
-from __future__ import annotations
-
 from tribodyn.friction.limit import FrictionLimit, stribeck_share
 
 __all__ = ["FrictionLimit", "stribeck_share"]

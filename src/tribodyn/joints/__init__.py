@@ -1,7 +1,5 @@
 """Clearance joints: geometry, contact law and friction, made into what the kernels read."""
 
-from __future__ import annotations
-
 from tribodyn.joints.bushing import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import CONTACTS, SURFACE, contact_table, point_table

@@ -5,8 +5,6 @@ and out again. Other than those of the plate of :mod:`tribodyn.contact.bounce`, 
 after the other, each with its own entry velocity.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Final

@@ -6,8 +6,6 @@ directions thickens it by Hooke's law: t → t[1 + ε_b + 2ν/(1 − ν)(ε_b �
 All strains are free ones, αΔT.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from tribodyn.core.errors import InputError

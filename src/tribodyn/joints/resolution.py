@@ -8,8 +8,6 @@ at most 2e-5 for clearances from 10 µm to 320 µm, see the page on convergence.
 nodes would do for forces; the largest of the pressures at nodes would miss the peak between them by 6 % then.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

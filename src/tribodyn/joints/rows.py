@@ -1,7 +1,5 @@
 """Rows of the nodes of all surfaces, and the angles of those that are rings, as kernels read them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Final

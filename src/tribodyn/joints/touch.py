@@ -1,7 +1,5 @@
 """Two surfaces that touch in a joint, and how deep a run has pressed them together."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mebdf.kernels.elementary import portable

@@ -5,8 +5,6 @@ calls stands in ``kernels.film``. :func:`film_state` evaluates a film at one sta
 finds where it carries a load.
 """
 
-from __future__ import annotations
-
 from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
 from tribodyn.lubrication.factors import Roughness
 from tribodyn.lubrication.oil_film import BOUNDARIES, CAVITATION, Film, FilmGrid, stacked_data, stacked_memory

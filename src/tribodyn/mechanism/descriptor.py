@@ -1,7 +1,5 @@
 """A mechanism that a user describes, as the rest of the program sees it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The frame at rest, and frames of joints."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Final
 

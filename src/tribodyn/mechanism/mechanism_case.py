@@ -3,8 +3,6 @@
 One file because the checks compare tables that the class declares.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """Variables of a mechanism's results beside those of every result: of the whole, each body, each joint."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final

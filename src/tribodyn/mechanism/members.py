@@ -1,7 +1,5 @@
 """Members of a family that stand in modules of a package, and keys of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from importlib import import_module
 from typing import Any, ClassVar, Protocol, TypeVar

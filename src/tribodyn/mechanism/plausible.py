@@ -1,7 +1,5 @@
 """Values of a mechanism that do not contradict each other, and yet hardly belong together, in words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Final, Protocol

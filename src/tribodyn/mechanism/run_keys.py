@@ -1,7 +1,5 @@
 """Keys of a run of a mechanism, of its integration and of the nodes of its joints."""
 
-from __future__ import annotations
-
 from typing import Final, Literal
 
 from tribodyn.cases.case import Group, demand_known

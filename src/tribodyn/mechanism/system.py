@@ -3,8 +3,6 @@
 One file because all of it is asked of one object, which computes assembly, start and maps once.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial

@@ -1,7 +1,5 @@
 """Amount of work and memory of a run of a user-defined mechanism."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Final

@@ -1,7 +1,5 @@
 """Loads of a mechanism over a run, and the segments between the kinks of tables."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass

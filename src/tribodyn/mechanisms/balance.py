@@ -1,7 +1,5 @@
 """Balance of the loads on a shaft: Newton's method for rough contact."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final, TypeAlias
 

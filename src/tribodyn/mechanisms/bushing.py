@@ -1,7 +1,5 @@
 """The clearance joint that a case describes, and what results hold of it whatever it joins."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Flash temperature of a joint with clearance: an estimate where the conductors of heat are known."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """Errors of outputs at chosen angles or positions of a drive, or times of its cycle."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Final

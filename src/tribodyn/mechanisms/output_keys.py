@@ -1,7 +1,5 @@
 """Keys that outputs of every mechanism have: where their error is read, and the error that is too large."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Final

@@ -1,7 +1,5 @@
 """Key results of the outputs of a mechanism: how far they are from the ideal motion."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import partial

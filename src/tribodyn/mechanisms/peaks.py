@@ -1,7 +1,5 @@
 """Peaks from the kernels as results hold them: of the whole run, and of each reversal."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

@@ -5,8 +5,6 @@ clearance within milliseconds. Frames are taken in the first and in the last com
 keeps those of the last one that was reached, so that a run that fails early has a film too.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

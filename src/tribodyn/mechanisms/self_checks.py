@@ -1,7 +1,5 @@
 """Self-checks of a run with a bushing, in plain words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import Final

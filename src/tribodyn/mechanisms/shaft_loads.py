@@ -1,7 +1,5 @@
 """Loads of a case as the terms that kernels add up."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Final

@@ -1,7 +1,5 @@
 """Signals as the pieces that kernels evaluate, and their integrals over time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final

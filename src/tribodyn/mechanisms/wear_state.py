@@ -1,7 +1,5 @@
 """State that runs of a wear campaign hand on, and the worn surfaces."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from tribodyn.core.arrays import FloatArray

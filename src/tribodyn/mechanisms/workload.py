@@ -1,7 +1,5 @@
 """Amount of work and memory of a run: counts from the keys of a case alone, before anything is built."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from tribodyn.cases.groups import Wear

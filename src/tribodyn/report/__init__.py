@@ -1,7 +1,5 @@
 """The report: one self-contained page about a run, or about several."""
 
-from __future__ import annotations
-
 from tribodyn.report.comparison import ComparedRun, RunDifferences, differences, write_comparison
 from tribodyn.report.figures import draw_all, figures_of
 from tribodyn.report.write import write

@@ -1,7 +1,5 @@
 """Chapters of a page as its template takes them, and the data of its scripts."""
 
-from __future__ import annotations
-
 import base64
 import io
 from collections.abc import Iterable, Mapping, Sequence

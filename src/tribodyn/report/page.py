@@ -1,7 +1,5 @@
 """A result as one HTML file that needs nothing else: data, figures, scripts and styles inside, no network."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from itertools import groupby

@@ -1,7 +1,5 @@
 """Sweep: every point as a line across parallel axes, from its parameters to its key results."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Collection
 from dataclasses import dataclass

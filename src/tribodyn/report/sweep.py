@@ -1,7 +1,5 @@
 """A sweep as one page: all its points across parallel axes, and the report of each a click away."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Results: what variables are, the dataset, its key results and its files."""
 
-from __future__ import annotations
-
 from tribodyn.results.dataset import build, json_attribute
 from tribodyn.results.netcdf import netcdf_content
 from tribodyn.results.store import prepare_directory

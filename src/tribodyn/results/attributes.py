@@ -4,8 +4,6 @@ One line an attribute that this program reads again. What is not listed is a fac
 number. Names that end in ``_version`` hold texts.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 TEXT: Final = "text"

@@ -1,7 +1,5 @@
 """Variables of the outputs of a mechanism in results, and the units in which their errors are shown."""
 
-from __future__ import annotations
-
 import math
 from typing import Final, NamedTuple
 

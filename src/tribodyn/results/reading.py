@@ -1,7 +1,5 @@
 """Numbers read off a result: what key results are made of."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

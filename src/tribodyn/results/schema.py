@@ -3,8 +3,6 @@
 The variable and attribute tables say it; what reads a result afterwards need not ask again.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Container, Mapping
 from typing import Any, Final

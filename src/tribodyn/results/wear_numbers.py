@@ -1,7 +1,5 @@
 """Key results of wear: of a campaign, or the linear estimate of one run."""
 
-from __future__ import annotations
-
 import math
 from types import EllipsisType
 from typing import Final, Literal, TypeAlias

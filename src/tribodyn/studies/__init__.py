@@ -1,7 +1,5 @@
 """Studies: one case at many values of its parameters, on processes of this machine or on a cluster."""
 
-from __future__ import annotations
-
 from tribodyn.studies.cluster import Tls
 from tribodyn.studies.contributions import OutputShares, contributions
 from tribodyn.studies.plan import Sampling, SweepPlan, make_plan

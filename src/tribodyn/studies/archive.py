@@ -3,8 +3,6 @@
 ``summary.json`` is written last, and it is the mark of a point that is done.
 """
 
-from __future__ import annotations
-
 import json
 import secrets
 from collections.abc import Iterator

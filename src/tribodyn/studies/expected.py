@@ -1,7 +1,5 @@
 """Expected time of a sweep."""
 
-from __future__ import annotations
-
 from statistics import fmean
 from typing import Final
 

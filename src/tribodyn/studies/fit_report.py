@@ -1,7 +1,5 @@
 """Files of a fit: the case with fitted values, a page, residuals and all numbers as JSON."""
 
-from __future__ import annotations
-
 import datetime
 import json
 from collections.abc import Sequence

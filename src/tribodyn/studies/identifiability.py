@@ -1,7 +1,5 @@
 """Identifiability of fitted keys: which keys the data leave open, which trade off, what would help."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 from typing import Final

@@ -1,7 +1,5 @@
 """Inputs and outputs of every runner."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Least squares from several starts, with covariance and confidence intervals."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal

@@ -1,7 +1,5 @@
 """Points computed by worker processes of this machine, see :mod:`tribodyn.core.workers`."""
 
-from __future__ import annotations
-
 import pickle
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence

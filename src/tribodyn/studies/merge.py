@@ -1,7 +1,5 @@
 """From the summaries of all points to one dataset."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping, Sequence

@@ -6,8 +6,6 @@ agrees with the covariance of the fit; the prior is uniform over the range of ea
 125, 306, 2013).
 """
 
-from __future__ import annotations
-
 import importlib
 import math
 from collections.abc import Sequence

@@ -5,8 +5,6 @@ has a mean of 20 µm and a standard deviation of 2 µm. Formulas of the underlyi
 only where something is drawn, because that takes long.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable

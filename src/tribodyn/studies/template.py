@@ -4,8 +4,6 @@ The fork server imports this module, which is when it prepares itself. So does a
 of one that died begin at once.
 """
 
-from __future__ import annotations
-
 import gc
 import signal
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Variations of a key: from ``joint.clearance = 10 um:50 um:10 um`` to values, or to a distribution."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 It writes no file but the whole result, where it is given a folder for that.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 from collections.abc import Callable, Mapping

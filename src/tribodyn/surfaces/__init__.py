@@ -1,7 +1,5 @@
 """Measured surfaces: from a file to the roughness and asperities that contact laws need."""
 
-from __future__ import annotations
-
 from tribodyn.surfaces.analysis import MeasuredSurface, Treatment, analyse, dependence
 from tribodyn.surfaces.asperities import Asperities, asperities
 from tribodyn.surfaces.generate import SelfAffine, generate

@@ -1,7 +1,5 @@
 """Files of instruments, through the package SurfaceTopography (extra ``surfaces``)."""
 
-from __future__ import annotations
-
 import importlib
 import warnings
 from pathlib import Path

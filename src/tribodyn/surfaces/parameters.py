@@ -1,7 +1,5 @@
 """The numbers of a surface: what each is called, in which unit it is shown, where it comes from."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Whether a scan can be measured: what is refused, and what is said about it."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Power spectral density of a surface, for the eye: over which wavelengths the roughness is spread."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,8 +7,6 @@ weight. ``spectral`` is the sharp filter, which removes all waves shorter than t
 cosines (DCT), whose mirrored surface has no jump at its border.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Final, TypeAlias

@@ -1,7 +1,5 @@
 """The bushing laid flat, as the script ``field`` draws it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Charts and sections of any shaft in a bushing: forces, tilt, pressure on the unrolled bushing, path."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -4,8 +4,6 @@ A chart has panels, a panel has curves and marks; :func:`over` makes of them wha
 draws.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Common scales of several results of one mechanism, so that their peaks can be compared."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Final

@@ -1,7 +1,5 @@
 """Data on their way into a page: arrays as they stand in memory, after what is to be known of them."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

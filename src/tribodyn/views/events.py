@@ -1,7 +1,5 @@
 """Reversals of the motion."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

@@ -3,8 +3,6 @@
 After the specification of the Khronos Group, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Magnification of the motion in a clearance in a scene."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The same quantity of several runs, curve over curve."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Times at which motion is drawn: those of the time slider, and those that cubics between rows need."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

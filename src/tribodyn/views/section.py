@@ -1,7 +1,5 @@
 """Types of sections and chapters of the report."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final, TypeAlias

@@ -1,7 +1,5 @@
 """Variables of a result as arrays to draw, and what is read off them."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

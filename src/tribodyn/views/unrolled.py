@@ -1,7 +1,5 @@
 """The bushing laid flat: where to cut it open, and what of its height to show."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

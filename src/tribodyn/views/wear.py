@@ -1,7 +1,5 @@
 """Wear of the bushing: map of the depth, worn shape by stages, and history over the cycles of a campaign."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

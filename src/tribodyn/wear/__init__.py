@@ -1,7 +1,5 @@
 """Wear: from sliding loads to depth and volume, and how far one simulated cycle may be extrapolated."""
 
-from __future__ import annotations
-
 from tribodyn.wear.archard import Archard, resampled, worn_volume
 from tribodyn.wear.jump import JumpControl, load_change
 from tribodyn.wear.running_in import loaded_depth, worn_roughness

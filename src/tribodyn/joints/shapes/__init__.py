@@ -1,7 +1,5 @@
 """Shapes of clearance joints: how nodes come onto their surfaces, listed once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

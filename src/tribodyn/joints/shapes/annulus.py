@@ -1,7 +1,5 @@
 """A flat ring across the axis: collars, flanges, end faces. It pushes and never pulls."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ part: to the bore through which a shaft slides, or to a pin that moves along a l
 piston. The shaft's flanges stand outside the ends of the bore and rest on them.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, replace
 

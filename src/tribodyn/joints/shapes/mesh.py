@@ -5,8 +5,6 @@ into it is against theirs. Turning is held on all three axes; it must stay small
 first order.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from typing import Final

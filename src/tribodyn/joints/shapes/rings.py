@@ -1,7 +1,5 @@
 """Nodes on surfaces of revolution: rings of equal angles at Gauss-Legendre points, and on the edges."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

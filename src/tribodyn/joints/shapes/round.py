@@ -4,8 +4,6 @@ The pressure of a race has no moment about the centre. Ball and bore touch aroun
 beside it the gap opens by R (1 − cos λ). Nodes travel with the ball.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Protocol of shapes: a shape puts nodes on the surfaces of a joint."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

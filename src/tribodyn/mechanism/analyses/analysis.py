@@ -1,7 +1,5 @@
 """Analyses of a mechanism beside the integration over time."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 from typing import Final

@@ -4,8 +4,6 @@ Drives and joints determine it without forces, position by position. Where they 
 may depend on these; then there is no ideal value that it could be compared with.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final

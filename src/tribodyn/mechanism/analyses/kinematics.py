@@ -8,8 +8,6 @@ matrix M, the constraints G and the forces Q at that state, accelerations a and 
 so that reactions and drive efforts are those that the prescribed motion needs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

@@ -5,8 +5,6 @@ springs, and of all loads as the bodies turn. Velocities along them are those at
 length; inertia forces along them are left out.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -8,8 +8,6 @@ in positions q and velocities v,
 Reactions do no work along B. Damping of impacts is left out: contact and stops are elastic.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

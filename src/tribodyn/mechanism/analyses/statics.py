@@ -6,8 +6,6 @@ dynamics of the motion within the clearances is left out: impacts, vibration, an
 the ideal motion, so positions that are passed in both directions have two equilibria.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

@@ -15,8 +15,6 @@ along the output; with the constraints G of the ideal mechanism, and those of th
 Surfaces are smooth and rigid here: roughness, which holds them apart, is left out.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ zero the position is unstable. Friction, loads against the motion and damping of
 them is linear in small motions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Final

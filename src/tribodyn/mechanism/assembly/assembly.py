@@ -1,7 +1,5 @@
 """Assembly of a drawing: small gaps closed, velocities from drives, and what is wrong, in words."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

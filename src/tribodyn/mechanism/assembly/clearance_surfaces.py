@@ -1,7 +1,5 @@
 """The surfaces of joints with clearance, from the keys of a case."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final, TypeAlias

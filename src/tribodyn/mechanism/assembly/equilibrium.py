@@ -11,8 +11,6 @@ or, at rest, of the last one or of the one that is about to begin.
 One file because all steps of the search change the same displaced bodies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Final
 

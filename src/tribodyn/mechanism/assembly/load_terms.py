@@ -1,7 +1,5 @@
 """Loads of a mechanism as records and terms that kernels read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any, Final
 

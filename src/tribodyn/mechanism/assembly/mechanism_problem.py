@@ -1,7 +1,5 @@
 """A mechanism as an initial value problem."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Final

@@ -4,8 +4,6 @@ Where the joints cannot all close, the bodies are placed where ideal joints and 
 joints with clearance miss by the least share of what each allows, by Gauss and Newton.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final

@@ -6,8 +6,6 @@ on it, and the others go on to its neighbours (Duff and Reid (1983), ACM Trans. 
 depends on others. Where each body has few neighbours, work is in proportion to their number.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Axes that do not belong to the plane in which the other joints of a mechanism move."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final

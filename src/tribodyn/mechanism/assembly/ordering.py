@@ -9,8 +9,6 @@ leaves to the root; a loop is closed before the body it hangs on. The nodes of f
 come before all others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache

@@ -5,8 +5,6 @@ degrees of freedom that drives leave; so with such freedoms several paths are tr
 refused.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ forces, reactions, works, sliding loads. Drives may turn back at some time: from
 repeated backward, by the same mechanism with the time reversed.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

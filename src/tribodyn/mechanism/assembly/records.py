@@ -1,7 +1,5 @@
 """The keys of a mechanism as the records that kernels read."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from typing import Any, Final

@@ -4,8 +4,6 @@ Sums run in the order of :func:`tribodyn.kernels.dense.product`, coupling by cou
 processor, whatever is taken together.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """A mechanism as lines between its joints: where the points of every body are, as pictures need it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache

@@ -5,8 +5,6 @@ clearances until contact gives what that motion asks of the joints, by
 :mod:`tribodyn.mechanism.assembly.equilibrium`. Freedoms of the mechanism as a whole are left to themselves.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

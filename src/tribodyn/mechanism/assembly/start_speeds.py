@@ -6,8 +6,6 @@ ideal joints cannot move that way, the sum of squares of these velocities over t
 the motions that remain possible, the one with the least kinetic energy is taken.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

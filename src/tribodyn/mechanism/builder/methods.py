@@ -4,8 +4,6 @@ A method fills one table of a case. Its keyword arguments are the keys of that t
 defaults and meanings stand in one place, the models of a case.
 """
 
-from __future__ import annotations
-
 import inspect
 import tomllib
 from collections.abc import Mapping

@@ -4,8 +4,6 @@ An element is one file with one class, and its name in the list below. Keys of c
 manual, methods of the builder, messages, constraint equations and results follow from the list.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.mechanism.elements.element import ElementKeys

@@ -10,8 +10,6 @@ output is at its limit (Åström and Hägglund, Advanced PID Control, 2006, sect
 first sampling time the error counts as constant.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Final

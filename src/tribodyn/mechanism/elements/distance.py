@@ -7,8 +7,6 @@ With the displacement d of the second point against the first,
 The multiplier is the force that pushes the points apart: above zero in compression.
 """
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from tribodyn.cases.case import demand

@@ -1,7 +1,5 @@
 """Aerodynamic drag: a force against the velocity v of a point, in air at rest, F = ½ ρ c_d A v²."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 import numpy as np

@@ -12,8 +12,6 @@ path of its origin; the force then acts along d, or along the velocity.
 An element with a force law says what λ is, as a function of the sum q and its rate, and holds nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, Literal, Self

@@ -14,8 +14,6 @@ pressure angle α: the tooth force F pushes the wheels apart with F tan α; near
 play. Teeth without backlash push the wheels apart with |λ| tan α where the pressure angle is given.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import replace

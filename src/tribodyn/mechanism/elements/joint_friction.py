@@ -9,8 +9,6 @@ against the motion. It is the law of ``tribodyn.friction`` with the regularisati
 what sticks creeps, by less than the slip velocity u_s.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, ClassVar, Final, Self
 

@@ -7,8 +7,6 @@ A DC motor at constant voltage has the straight line
 with the stall torque M₀ and the no-load speed ω₀, where the time constant of its winding is short.
 """
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from tribodyn.cases.case import demand

@@ -5,8 +5,6 @@ With the elongation x over its length without force, its rate, and a table T of 
     tension = F₀ + k x + T(x) + c ẋ,   energy = F₀ x + ½ k x² + ∫₀ˣ T.
 """
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from tribodyn.cases.case import demand

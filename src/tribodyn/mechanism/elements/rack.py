@@ -8,8 +8,6 @@ r e × z from the centre of the pinion, and
 The multiplier is the force on the rack along its axis.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import ClassVar
 

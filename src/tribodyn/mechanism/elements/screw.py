@@ -14,8 +14,6 @@ by the law of ``joint_friction`` with the load N. A nut that lifts a weight W ta
 W r tan(φ + ρ) with tan ρ = μ.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import ClassVar, Self

@@ -10,8 +10,6 @@ first accepted step in contact on. Before that the speed itself takes its place,
 more.
 """
 
-from __future__ import annotations
-
 from typing import Any, ClassVar, Final, Literal
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Torsion spring and damper at the angle of a joint, linear or by a table; the law of a nonlinear spring."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from tribodyn.cases.case import demand

@@ -1,7 +1,5 @@
 """The mechanism in motion: a film of its bodies as lines between joints, and solids of round rods."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

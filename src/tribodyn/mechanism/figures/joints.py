@@ -1,7 +1,5 @@
 """Joints with clearance: paths of the shafts, and maps of their surfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Final

@@ -1,7 +1,5 @@
 """The mechanism at some moments of its cycle, and the shapes of its lowest modes."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -5,8 +5,6 @@ constraint equations share one. Allowed types in case files, methods of the buil
 drives, drawings and the tables of the manual follow from the list.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.mechanism.joints.joint_type import JointType

@@ -1,7 +1,5 @@
 """Joints that are only their constraint equations: lower pairs, a ball on a pin, a rigid connection."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from tribodyn.mechanism.joints.joint_type import ALIGNED, AT_POINT, NO_TURN, ON_AXIS, JointType, Row

@@ -4,8 +4,6 @@ A type of ideal joint is a list of constraint equations on the displacement and 
 body against the first, in axes of which z is the axis of the joint.
 """
 
-from __future__ import annotations
-
 from typing import Any, ClassVar, Final
 
 from tribodyn.cases.case import NamedGroup

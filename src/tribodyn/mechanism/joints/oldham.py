@@ -4,8 +4,6 @@ Its disc slides across one shaft in one direction and across the other in anothe
 disc it leaves the two displacements across the axis free and transmits the torque.
 """
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from tribodyn.mechanism.joints.joint_type import ALIGNED, AT_POINT, NO_TURN, JointType, Row

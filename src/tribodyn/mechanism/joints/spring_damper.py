@@ -1,7 +1,5 @@
 """Spring-damper: two bodies that move against six stiffnesses, such as a rubber mount."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from tribodyn.cases.case import NamedGroup, demand

@@ -4,8 +4,6 @@ The two axes stay at right angles, z · x' = 0. At an angle β between shafts th
 tan θ_2 = tan θ_1/cos β.
 """
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Bodies of a mechanism: their keys and their cross-checks."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar, Final, Literal
 

@@ -1,7 +1,5 @@
 """Drives and loads of a mechanism: their keys and their cross-checks."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final, TypeAlias

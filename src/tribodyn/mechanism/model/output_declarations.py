@@ -1,7 +1,5 @@
 """Outputs: what a mechanism is there for, such as the position of a slider, with its keys."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import ClassVar, Final, Literal
 

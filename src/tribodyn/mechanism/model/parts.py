@@ -1,7 +1,5 @@
 """Bodies, joints and springs of a mechanism: their keys and their cross-checks."""
 
-from __future__ import annotations
-
 import math
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, Final, Self

@@ -1,7 +1,5 @@
 """Reversals of the drives of a mechanism, and largest values in the impacts that follow."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

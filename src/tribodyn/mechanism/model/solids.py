@@ -5,8 +5,6 @@ principal axis of the body; a box has its sides along the principal axes; a mesh
 triangles.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Measures of the contacts of a run's joints, and of the same attitudes on a finer grid."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Final

@@ -4,8 +4,6 @@ The pressure is largest where the gap is least. There, a node at x of a shaft th
 at the part of v + ω × x that is tangential to the surface.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """Key results of each joint by its name; the sustained maximum of a quantity is shown with its peak."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import partial

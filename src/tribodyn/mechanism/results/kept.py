@@ -1,7 +1,5 @@
 """Variables of bodies and joints over time in a mechanism's results, and further inputs of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property

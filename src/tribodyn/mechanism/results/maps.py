@@ -1,7 +1,5 @@
 """Fields over the nodes of all joints as one array: surface by surface, row by row."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final

@@ -1,7 +1,5 @@
 """Warnings on runs of any mechanism, and why a run stopped where the model of a joint no longer held."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Final

@@ -1,7 +1,5 @@
 """Key results of a mechanism as a whole."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Final

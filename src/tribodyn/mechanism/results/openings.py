@@ -1,7 +1,5 @@
 """Effect of temperatures on the clearances of joints, as results hold it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Variables of the outputs of a mechanism in results."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Final

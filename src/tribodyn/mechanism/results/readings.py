@@ -1,7 +1,5 @@
 """Numbers read off a result of a user-defined mechanism: what its key results and charts are made of."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from functools import lru_cache

@@ -3,8 +3,6 @@
 Friction of joints is regularised: at the slip velocity it has 71 % of its size, at five times that 98 %.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 

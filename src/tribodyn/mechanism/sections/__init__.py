@@ -1,7 +1,5 @@
 """Content of a mechanism's report: its chapters, and the overlays of a comparison."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

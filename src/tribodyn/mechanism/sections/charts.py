@@ -1,7 +1,5 @@
 """Charts over time of any mechanism."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sections on the joints: forces, the motion in the clearance, pressure and wear, joint by joint."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final

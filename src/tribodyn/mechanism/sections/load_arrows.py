@@ -1,7 +1,5 @@
 """Loads as a scene shows them: where they act, and their forces and moments at the frames, global axes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

@@ -1,7 +1,5 @@
 """The mechanism in space: every body drawn from its joints, at the frames."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Parts of a scene beside bodies: motion in clearances, to be magnified; forces and moments as arrows."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, Final

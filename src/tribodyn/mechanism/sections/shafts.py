@@ -1,7 +1,5 @@
 """Motion of shafts in their bores between the rows of a result."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

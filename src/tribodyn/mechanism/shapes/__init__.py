@@ -4,8 +4,6 @@ A shape is one class, in a file of this package whose name is in the list below.
 messages, surfaces, the ideal counterpart of a joint and costs follow from the list.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.mechanism.joints.joint_type import JointType

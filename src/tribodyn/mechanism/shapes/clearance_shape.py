@@ -1,7 +1,5 @@
 """Common parts of the shapes of a clearance."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeAlias
 

@@ -1,7 +1,5 @@
 """A shaft in a bore, with end faces where the clearance has axial gaps."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar, Final
 
 from tribodyn.cases.case import NamedGroup, demand

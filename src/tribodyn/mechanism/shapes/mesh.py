@@ -1,7 +1,5 @@
 """Any surface, given by triangles."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Balls: in a race, and in a bore along which they slide."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from tribodyn.cases.case import NamedGroup

@@ -4,8 +4,6 @@ The axis of the journal is at rest, so the film has its wedge and no squeeze, th
 friction slides at ω r_j.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Final

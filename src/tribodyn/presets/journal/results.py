@@ -1,7 +1,5 @@
 """Results of a journal: names of the source paper for native results, and its key results."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

@@ -1,7 +1,5 @@
 """A case of the journal as the mechanism that it is, with its start, its tolerances and printed names."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final

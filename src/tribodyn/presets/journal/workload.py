@@ -1,7 +1,5 @@
 """Amount of work and memory of a run of the journal."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Final

@@ -1,7 +1,5 @@
 """Scripts and style sheet of the page, and the policy that lets only them in."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 from collections.abc import Iterable
