@@ -4,8 +4,6 @@ Written from the geometry (frames, closure and mass centres), with no derivative
 accelerations are differences of positions.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ F_cz, which follow from the pin and the vertical balance of the vane. It is asse
 as a whole, independently of the projected equations and of the way in which the model finds its reactions.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

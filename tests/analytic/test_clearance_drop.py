@@ -1,7 +1,5 @@
 """The bounce test on every shape: a shaft thrown against its socket comes back as was meant."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

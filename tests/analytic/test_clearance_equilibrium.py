@@ -1,7 +1,5 @@
 """Journals at rest and sliding: forces, moments and friction against quadrature of the contact law itself."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Two free bodies joined by nothing but a clearance joint keep their momenta and their energy."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Clearance joints of every shape: derivatives, power, third law, and the cylinder as the bushing."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """What clearance joints remember: entry velocities, sliding loads and with them wear, peaks."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Limits of the contact laws that have a closed form."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

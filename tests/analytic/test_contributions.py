@@ -1,7 +1,5 @@
 """Shares of joints in the error of an output."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

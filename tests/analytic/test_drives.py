@@ -1,7 +1,5 @@
 """Motors, controllers, base motion and cyclic tables against closed forms, with the energy they put in."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 

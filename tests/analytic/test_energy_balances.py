@@ -4,8 +4,6 @@ Whole mechanism: energies gained and heats against works put in. Clearance motio
 part of every velocity that the clearance coordinates make.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cavitation as a complementarity problem, mass balance, and the sign of the shear flow."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import quad

@@ -1,7 +1,5 @@
 """Films against closed forms: infinitely long and very short bearings, rotation and squeeze."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

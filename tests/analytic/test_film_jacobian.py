@@ -1,7 +1,5 @@
 """Derivatives of the film's wrench against central differences."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The flash temperature against limits of heat conduction and Jaeger's integral of a moving source."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

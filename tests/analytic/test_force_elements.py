@@ -1,7 +1,5 @@
 """Distance joint and forces of elements against closed forms: periods, rebounds, terminal speed."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

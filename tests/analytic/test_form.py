@@ -1,7 +1,5 @@
 """Crown and chamfers of a bushing against quadratures of the pressure, and how fast they converge."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

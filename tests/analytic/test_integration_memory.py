@@ -1,7 +1,5 @@
 """Problems with memory, restarts and path integrals whose answers are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq

@@ -1,7 +1,5 @@
 """What must not matter to a run: how often it is done, how often it is looked at, how lengths are spelled."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

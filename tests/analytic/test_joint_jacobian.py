@@ -6,8 +6,6 @@ with a node that a kink separates from one of its difference points has no diffe
 such states are left out and counted.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline

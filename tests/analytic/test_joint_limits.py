@@ -4,8 +4,6 @@ Signs: the bushing point named θ lies at −(cos θ, sin θ), and its pressure 
 +(cos θ, sin θ). M_x is right-handed about X, M_y left-handed about Y.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The memory of entry velocities: who enters, what is kept, when it is forgotten, and that nothing jumps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

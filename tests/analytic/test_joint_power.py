@@ -1,7 +1,5 @@
 """Work and heat of the bushing joint: virtual work, stored energy, damping heat and friction power."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The journal against what can be worked out by hand: frequencies, symmetries, balances, limits."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The drop of a journal: energy, independence of speed, and two other ways to compute it."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from typing import Any

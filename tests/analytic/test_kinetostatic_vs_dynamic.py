@@ -6,8 +6,6 @@ positions), friction with the actual slip. Only the pressure of the bushing is t
 has its own tests. What the dynamics adds is the velocity of the clearance motion and its damping.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

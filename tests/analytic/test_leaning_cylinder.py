@@ -4,8 +4,6 @@ Where the pin is longer than the bore, a ray leaves each point of the bore along
 displaced and tilted pin; where it is shorter, each point of the tilted pin looks for the bore.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable

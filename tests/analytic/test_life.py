@@ -1,7 +1,5 @@
 """Life of a mechanism by the depth of its joints and by the errors of its outputs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

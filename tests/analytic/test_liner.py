@@ -3,8 +3,6 @@
 It runs the solver of the script that draws the figure of the manual.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import importlib.util
 import math

@@ -1,7 +1,5 @@
 """Each kind of load against a closed form, in all mechanisms, and the power that it puts in."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

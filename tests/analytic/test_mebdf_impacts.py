@@ -5,8 +5,6 @@ where the height is zero. In contact the speed turns within a fraction of a mill
 measured between curves: a small error of time is a small error, as one of height or speed is.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Mechanisms with solutions in closed form, conservation laws, and their books."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.special import ellipk

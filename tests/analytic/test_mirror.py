@@ -5,8 +5,6 @@ angle where F_airx changes its sign). Of the joint, e_x and φ_y change sign; φ
 the mirror and does not. Forces along X change sign, and moments about Y and Z.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

@@ -4,8 +4,6 @@ The balances are written from positions: velocities and accelerations of every b
 positions along a path that has the acceleration which the equations of motion gave.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cache

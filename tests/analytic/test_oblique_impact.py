@@ -1,7 +1,5 @@
 """Oblique impacts against momentum, Coulomb's law and Mindlin's solution."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

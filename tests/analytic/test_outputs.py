@@ -1,7 +1,5 @@
 """Outputs of a mechanism, and their error against the motion with ideal joints."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

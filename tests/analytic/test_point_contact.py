@@ -1,7 +1,5 @@
 """The point contact of a trunnion: its force, its derivatives, its power, and the laws themselves."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Power of drives and motors, and that of loads, against closed forms and the energy balance."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Damping in proportion to the speed, P_d = 3/2 α P_k δ̇: its restitution is known for any stiffness."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

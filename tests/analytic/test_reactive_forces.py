@@ -1,7 +1,5 @@
 """Forces that follow reactions: friction by the reaction of an ideal joint, teeth that push wheels apart."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A slider-crank whose wrist is real: it tends to the ideal one, and its books close at every clearance."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

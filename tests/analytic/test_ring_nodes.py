@@ -3,8 +3,6 @@
 The nodes of a surface of revolution are put into a patch, which kernels look at as a whole, node by node.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

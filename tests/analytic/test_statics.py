@@ -1,7 +1,5 @@
 """Quasi-static and kinematic analyses against closed forms and against dynamic runs."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The Stribeck curve: its limits, its minimum, and who carries the load."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

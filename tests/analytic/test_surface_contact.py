@@ -3,8 +3,6 @@
 It runs the script that draws the figure of the manual, on a smaller piece and at two loads.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import math
 import warnings

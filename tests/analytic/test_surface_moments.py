@@ -1,7 +1,5 @@
 """Moments of surfaces that are known in closed form, and what Nayak's theory makes of them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -4,8 +4,6 @@ The first body carries the axes of a joint and, with clearance, the bore; where 
 swapped description says so: by ``socket``, and by the axes of a universal joint.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Loads from tables: constants as tables, energy balances where tables kink and of what they add."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

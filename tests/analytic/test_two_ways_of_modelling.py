@@ -1,7 +1,5 @@
 """One bearing, modelled in two ways: a long cylinder against two short ones at its ends."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

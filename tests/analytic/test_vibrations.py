@@ -1,7 +1,5 @@
 """Small vibrations: frequencies, damping ratios and mode shapes against closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

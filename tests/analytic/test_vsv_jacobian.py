@@ -4,8 +4,6 @@ It is exact in the joint and the collar and leaves out how arms and masses chang
 coordinates, which is small against the contact stiffness; an integrator needs no more.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -3,8 +3,6 @@
 States are drawn a hundred times larger than clearances allow, where the second-order terms count.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -4,8 +4,6 @@ The specific wear rate is a thousand times that of the paper, so that hundreds o
 Without wear two successive cycles differ by 1e-4 of their sliding load: impacts amplify rounding.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

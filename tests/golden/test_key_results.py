@@ -5,8 +5,6 @@ say in the commit why. Hashes change with every edit that changes a rounding; th
 the physics stayed.
 """
 
-from __future__ import annotations
-
 import json
 import platform
 from importlib.metadata import version

@@ -3,8 +3,6 @@
 ``make golden`` writes the messages anew. Read the difference as the user who made the mistake.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os

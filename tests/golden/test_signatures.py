@@ -3,8 +3,6 @@
 ``make golden`` writes it anew from the keys of a case.
 """
 
-from __future__ import annotations
-
 import inspect
 import sys
 from collections.abc import Iterator

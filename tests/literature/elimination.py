@@ -5,8 +5,6 @@ the drag link, with two derivatives) and the forces of the joint. Angles of the 
 arms and the elimination are written from the paper. What is in ``mended`` is right, all else as printed.
 """
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Chang-Etsion-Bogy: the published load and area of one asperity, summed by adaptive quadrature."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise

@@ -3,8 +3,6 @@
 Means over tolerances: rounding moves the digits at one of them.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

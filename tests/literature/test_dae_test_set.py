@@ -4,8 +4,6 @@ Problems, end points and published runs: ``benchmarks/dae_problems.py``, ``bench
 the digits at one tolerance; what is asked are means over the tolerances and slopes through them.
 """
 
-from __future__ import annotations
-
 import sys
 from functools import cache
 from pathlib import Path

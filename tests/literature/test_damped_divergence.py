@@ -5,8 +5,6 @@ In truth the vane turns with e_x, and the ring follows along Y by −0.56 e_x at
 the reactions has the true lever ratio, the inertia force m_3 ÿ_O3 has not: an impact may gain energy.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

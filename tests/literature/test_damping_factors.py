@@ -1,7 +1,5 @@
 """Restitution that the published damping factors really give, against independently computed values."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

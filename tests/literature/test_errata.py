@@ -1,7 +1,5 @@
 """Where the manual says that the paper is wrong, in numbers: docs/theory/errata.md and energy.md."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

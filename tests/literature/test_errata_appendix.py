@@ -1,7 +1,5 @@
 """Where Appendix 2 of the source paper is wrong, each found anew: docs/theory/errata.md."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from types import SimpleNamespace

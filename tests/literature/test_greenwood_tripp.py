@@ -1,7 +1,5 @@
 """Greenwood-Tripp integrals against the printed table of 1970 and independently computed values."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

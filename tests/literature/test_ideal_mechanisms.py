@@ -6,8 +6,6 @@ numbers of A02 come from independent coordinates, to ten digits. Spatial slider-
 Aided Kinematics and Dynamics of Mechanical Systems, 1989, section 12.2, its numbers likewise.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.unit.mechanism.drawings import (

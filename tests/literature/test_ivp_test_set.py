@@ -9,8 +9,6 @@ of them. What stands beside a bound was measured on four kinds of processor (gen
 znver4), each with six ensembles of tolerances: the worst of the 24, ± their standard deviation.
 """
 
-from __future__ import annotations
-
 import sys
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Jackson-Green: the published load and area of one asperity, summed by adaptive quadrature."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise

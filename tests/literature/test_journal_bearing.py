@@ -5,8 +5,6 @@ test of a public multibody code, which asks for 3 % in the load. Here: load and 
 Errors found on 256 × 32: load 0.14 %, attitude 0.09°, side flow 0.45 %, squeeze 0.4 %.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -3,8 +3,6 @@
 Numbers marked (model, 9) were computed independently of this project.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

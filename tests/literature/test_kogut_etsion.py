@@ -1,7 +1,5 @@
 """Kogut-Etsion pressures against numbers computed independently of this project."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

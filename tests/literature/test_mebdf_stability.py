@@ -4,8 +4,6 @@ Angles: Cash (1983) and Hairer and Wanner, Solving Ordinary Differential Equatio
 locus to two decimals in ``docs/theory/mebdf.md``.
 """
 
-from __future__ import annotations
-
 from math import comb
 
 import numpy as np

@@ -5,8 +5,6 @@ clearance and rings. The angles of contact are θ of the gap, h = c + e_x cos θ
 that is named θ stands at −(cos θ, sin θ).
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

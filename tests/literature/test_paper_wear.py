@@ -3,8 +3,6 @@
 The paper divides the wear rate by the bare number 65 (Eq. 47); without that the depths are 65 times larger.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

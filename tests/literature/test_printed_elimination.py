@@ -5,8 +5,6 @@ F_43x, and from Eqs. 38, 39 and 43 (vane). Here those equations are solved as on
 arms, inertia forces and weights of the mechanism in motion, and compared with Loc_1 to Loc_5.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Formulation ``printed`` is Eq. 46 with its printed entries, ``paper`` what the table of mended ones has."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.literature.elimination import MENDED, equations, instant

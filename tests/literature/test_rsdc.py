@@ -1,7 +1,5 @@
 """Rough-surface damping against numbers computed independently of this project."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The mechanism without damping: the paper's first conclusion, and what it hangs on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -4,8 +4,6 @@ An independent run found about 205 N at 20 µm. That is ours with a least entry 
 default of 1 mm/s, which damps points that roll into contact far less, it is 88 N.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -3,8 +3,6 @@
 The crank angles are those of Table 2 and Fig. 10 of the source paper; Eqs. 11 to 18 give the vane angle.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

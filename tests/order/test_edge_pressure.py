@@ -6,8 +6,6 @@ approached faster: each has an entry velocity of its own, and the finer the grid
 Without that memory, or with a least entry velocity above those of the impact, the peak is one number.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import tribodyn as td

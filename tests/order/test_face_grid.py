@@ -1,7 +1,5 @@
 """Rows of an end face follow those of the barrel: their quadrature is as fine up to the largest tilt."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Films converge with the square of the cell."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -5,8 +5,6 @@ The problem is a damped oscillator (speed 1 rad/s, damping ratio 0.1) that a for
 Both have known solutions.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -7,8 +7,6 @@ the integrand has edges of its own, where friction changes sign and where the te
 instants see their crossing of the nodes on any grid.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

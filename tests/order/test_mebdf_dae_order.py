@@ -4,8 +4,6 @@ Both hold y = 1/(1 + t²) with y' = −2 t y². At index 1, z³ + z = y + sin t;
 the constraint x = y sin t. Starting values are exact.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -3,8 +3,6 @@
 The global error of y' = −2 t y², y = 1/(1 + t²), beside a linear oscillator.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

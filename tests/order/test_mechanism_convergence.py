@@ -1,7 +1,5 @@
 """Errors of mechanisms fall with the tolerance, although every step ends on the constraints."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

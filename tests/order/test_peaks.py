@@ -1,7 +1,5 @@
 """Peaks of impacts, taken from accepted steps, against rows a microsecond apart of the same steps."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What holds for every law, and for every damping factor of every law."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Contact laws that come from a user or from another package."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Names and units of columns, as headers give them."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

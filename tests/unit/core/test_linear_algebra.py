@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from scipy import linalg
 from threadpoolctl import threadpool_info, threadpool_limits
 

@@ -1,7 +1,5 @@
 """What was made last."""
 
-from __future__ import annotations
-
 from concurrent.futures import ThreadPoolExecutor
 
 from tribodyn.core.remembered import Remembered

@@ -1,7 +1,5 @@
 """Signals: smooth between kinks, exact for what a cubic can be."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

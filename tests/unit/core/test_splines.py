@@ -1,7 +1,5 @@
 """Cubics and roots without SciPy: its numbers."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

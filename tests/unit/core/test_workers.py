@@ -1,7 +1,5 @@
 """Worker processes, whatever they do."""
 
-from __future__ import annotations
-
 import platform
 import sys
 from multiprocessing.connection import Connection

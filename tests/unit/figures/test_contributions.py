@@ -1,7 +1,5 @@
 """Bars of the shares of joints in the error of an output."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

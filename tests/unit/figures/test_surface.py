@@ -1,7 +1,5 @@
 """The figure of a measured surface shows what was measured."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The friction limit against its special cases."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

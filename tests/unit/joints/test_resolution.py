@@ -1,7 +1,5 @@
 """The default number of nodes follows clearance and roughness, and what is given by hand is kept."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rings of nodes, as kernels take them four at a time."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Node generators: areas, normals, refusals."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Triangles from STL files, and files that are none."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """A film alone under a load: what balances, what turns, and what is refused."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

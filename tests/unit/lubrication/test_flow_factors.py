@@ -1,7 +1,5 @@
 """Flow, shear, contact and friction factors of rough surfaces."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Films as they are asked for: what is refused, and what does not depend on what was asked before."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import replace

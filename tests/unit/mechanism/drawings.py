@@ -1,7 +1,5 @@
 """Mechanisms made of keys in SI units, and runs of them, for tests of the numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """A crank and rocker of four revolute joints as calls, for tests of what clearance takes."""
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism

@@ -1,7 +1,5 @@
 """A made-up result of the slider-crank: its ideal motion in closed form, and contact made up."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from tests.unit.mechanism.slider_crank import parsed

@@ -1,7 +1,5 @@
 """The slider-crank of the specification as a file and as calls, for tests."""
 
-from __future__ import annotations
-
 import re
 
 from tribodyn.cases.load import parse

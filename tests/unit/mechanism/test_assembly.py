@@ -1,7 +1,5 @@
 """Assembly: gaps closed, freedoms and redundancy counted, and what is wrong said in words."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

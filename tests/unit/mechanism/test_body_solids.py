@@ -1,7 +1,5 @@
 """Bodies as solids: their volume is the one that their mass follows from."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

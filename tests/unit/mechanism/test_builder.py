@@ -1,7 +1,5 @@
 """The builder in Python: signatures, docstrings, arrays, and what a notebook shows."""
 
-from __future__ import annotations
-
 import doctest
 import inspect
 

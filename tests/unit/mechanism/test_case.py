@@ -1,7 +1,5 @@
 """A mechanism as a file, as calls in Python, and as what equations begin with."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What runs of user-defined mechanisms say of each of their contacts."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.unit.mechanism.test_system import bob

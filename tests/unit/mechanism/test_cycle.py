@@ -1,7 +1,5 @@
 """Mechanisms led through their cycle: what clearance takes is allowed with a warning, the rest is refused."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

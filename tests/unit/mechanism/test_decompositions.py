@@ -1,7 +1,5 @@
 """Large matrices of a mechanism: factors find what singular values would, or are not used."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Derivatives of the equations of motion, and the blocks of the iteration matrix, against differences."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.unit.mechanism.drawings import body, joint, mechanism, vector

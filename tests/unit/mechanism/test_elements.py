@@ -3,8 +3,6 @@
 The ground of each example is a free body here, so that reactions on all bodies show.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from typing import Any, ClassVar

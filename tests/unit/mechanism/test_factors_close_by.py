@@ -1,7 +1,5 @@
 """Velocities and reactions with the factors of another position are those with the position's own."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

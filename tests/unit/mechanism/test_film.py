@@ -1,7 +1,5 @@
 """Oil films of joints: what is refused, what results hold, what a state without an answer leaves behind."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

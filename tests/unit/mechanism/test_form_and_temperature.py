@@ -1,7 +1,5 @@
 """Form and temperatures of any joint that can have them: those of the vane mechanism."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -3,8 +3,6 @@
 Two free bodies are joined, the ground takes no part, so that reactions on both bodies show.
 """
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Every file of the gallery runs to its end and answers its question."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

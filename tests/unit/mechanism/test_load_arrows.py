@@ -1,7 +1,5 @@
 """Arrows of loads: where loads act in a result, and how large they are, against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.unit.mechanism.made_up import result

@@ -1,7 +1,5 @@
 """What is shown and said of mechanisms with more joints than a person looks at."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

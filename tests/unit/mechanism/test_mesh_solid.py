@@ -1,7 +1,5 @@
 """Mass properties of solids inside closed surfaces of triangles."""
 
-from __future__ import annotations
-
 from itertools import product
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The order of elimination: cost linear in bodies, and pivots that are regular."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.unit.mechanism.drawings import chain, joint, mechanism, rod, with_springs

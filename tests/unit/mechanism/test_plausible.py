@@ -1,7 +1,5 @@
 """What is said of values of a mechanism that hardly belong together, in every run and check."""
 
-from __future__ import annotations
-
 import pytest
 from tests.unit.mechanism.slider_crank import FILE, IDEAL, parsed
 

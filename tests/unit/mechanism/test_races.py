@@ -1,7 +1,5 @@
 """Ball joints without an axis: their race turns with the model."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

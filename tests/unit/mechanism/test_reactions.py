@@ -1,7 +1,5 @@
 """Reactions of joints without the forces of their drives."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """What is told and drawn of a mechanism: numbers by the names of joints, figures, the report, and files."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Reversals of drives against their closed forms, and the largest values after them."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

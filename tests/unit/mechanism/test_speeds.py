@@ -1,7 +1,5 @@
 """Velocities at the start: joints with clearance move as the ideal joints that hold the same."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Where a mechanism with clearance begins: shafts against their sockets, as loads and motion ask."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

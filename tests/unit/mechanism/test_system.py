@@ -1,7 +1,5 @@
 """A drawn mechanism simulated: motion in closed form, books, names, wear, and a campaign gone on with."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

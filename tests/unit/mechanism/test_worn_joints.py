@@ -1,7 +1,5 @@
 """Running-in, wear of both partners and sliding speeds in the joints of user-defined mechanisms."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

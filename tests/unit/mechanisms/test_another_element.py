@@ -1,7 +1,5 @@
 """A part is one file, with one line in a list: those of the manual are added to a copy, and run."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Errors of outputs at angles, positions and times."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

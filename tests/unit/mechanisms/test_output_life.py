@@ -1,7 +1,5 @@
 """Growth of errors by wear, and lives by them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

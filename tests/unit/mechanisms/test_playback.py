@@ -1,7 +1,5 @@
 """The frames of the animation: one cycle, evenly, and close together after reversals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

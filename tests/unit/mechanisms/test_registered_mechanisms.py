@@ -1,7 +1,5 @@
 """A package registers a mechanism, a falling disc, by an entry point; every command then knows it."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

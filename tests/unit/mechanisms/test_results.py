@@ -1,7 +1,5 @@
 """Which key results of a kind of results come first."""
 
-from __future__ import annotations
-
 from tribodyn.mechanisms.results import key_numbers_of
 
 

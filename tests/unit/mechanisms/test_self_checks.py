@@ -1,7 +1,5 @@
 """Every self-check speaks from its threshold on and not before."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

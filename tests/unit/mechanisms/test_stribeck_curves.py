@@ -1,7 +1,5 @@
 """Stribeck curves of a case: the shape of what comes out, and what is refused."""
 
-from __future__ import annotations
-
 import pytest
 
 import tribodyn as td

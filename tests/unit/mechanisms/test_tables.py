@@ -1,7 +1,5 @@
 """Tables that a run leaves, and tables over a whole turn, in every model."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """``result.tribodyn`` in a notebook, and what cases show there."""
 
-from __future__ import annotations
-
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """A result as a film and as moving solids."""
 
-from __future__ import annotations
-
 import json
 import os
 import struct

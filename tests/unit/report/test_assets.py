@@ -1,7 +1,5 @@
 """Scripts of a page share one scope: each declares names of its own."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from importlib.resources import files

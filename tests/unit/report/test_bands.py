@@ -1,7 +1,5 @@
 """The band of key results over a sweep of what is assumed, on the page of the run in its middle."""
 
-from __future__ import annotations
-
 import pytest
 
 from tribodyn.mechanisms.catalogue import load_case

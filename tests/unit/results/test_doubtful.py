@@ -1,7 +1,5 @@
 """Numbers of a run whose energy balance misses too much are marked wherever they are shown."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

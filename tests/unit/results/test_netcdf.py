@@ -1,7 +1,5 @@
 """What is written is what was there."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a result must be like to be worked with."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

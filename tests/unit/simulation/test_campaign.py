@@ -1,7 +1,5 @@
 """Cycle jumping on a made-up joint whose wear is known: no motion is simulated."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """What may stand for a case where one is simulated."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

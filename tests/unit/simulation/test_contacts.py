@@ -1,7 +1,5 @@
 """Mechanism and journal run under every contact law, damped, and under every contact of the joint."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

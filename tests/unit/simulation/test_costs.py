@@ -1,7 +1,5 @@
 """What a run is estimated to take, against what it takes."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

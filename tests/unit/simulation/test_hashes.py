@@ -1,7 +1,5 @@
 """Hashes change with every number of a run, and with nothing else."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple

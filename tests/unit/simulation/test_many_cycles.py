@@ -1,7 +1,5 @@
 """Long runs without cycle jumping, as in ``benchmarks/long_run.py``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Whoever asks a run to stop waits no longer than a second, in whatever phase it is."""
 
-from __future__ import annotations
-
 import itertools
 import time
 

@@ -1,7 +1,5 @@
 """Calibration on a model whose runs take no time: a decaying oscillation that stands for a run of a case."""
 
-from __future__ import annotations
-
 import dataclasses
 import errno
 import json

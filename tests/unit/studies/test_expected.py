@@ -1,7 +1,5 @@
 """What a sweep is expected to take."""
 
-from __future__ import annotations
-
 import tribodyn as td
 from tribodyn.studies.expected import warnings_of
 from tribodyn.studies.plan import make_plan

@@ -1,7 +1,5 @@
 """Workers that are real processes, with tasks from the standard library."""
 
-from __future__ import annotations
-
 import math
 import os
 import signal

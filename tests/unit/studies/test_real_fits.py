@@ -1,7 +1,5 @@
 """Fits of real mechanisms to runs with noise: coverage of the intervals, and time."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """The search for a limit, around a simulation whose force is proportional to the clearance."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Workers are forked from a process that has imported and loaded everything."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Heights as drawings state them, against closed forms."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The same surface in several formats gives the same numbers."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from functools import partial

@@ -1,7 +1,5 @@
 """Our own text format: what is written reads back, and what a person writes is understood."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a comparison compares: the stretch that all results hold, with the same reversals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Motion between rows: free flights are parabolas, not polygons."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

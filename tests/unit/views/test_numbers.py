@@ -1,7 +1,5 @@
 """Numbers and units as a person reads them."""
 
-from __future__ import annotations
-
 import pytest
 
 from tribodyn.views.numbers import as_read

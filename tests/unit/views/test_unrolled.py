@@ -1,7 +1,5 @@
 """Angles of nodes and where a bushing is cut."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

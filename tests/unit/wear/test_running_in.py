@@ -1,7 +1,5 @@
 """Roughness of a surface whose tops are worn off."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Keys of a disc that falls."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from tribodyn.cases.case import Case, Group

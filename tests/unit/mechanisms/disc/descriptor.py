@@ -1,7 +1,5 @@
 """The disc as the rest of the program sees it."""
 
-from __future__ import annotations
-
 from falling_disc.case import DiscCase
 from falling_disc.variables import VARIABLES
 

@@ -1,7 +1,5 @@
 """A case of the disc as a system to integrate."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """What its results hold."""
 
-from __future__ import annotations
-
 from tribodyn.results.variables import Variable
 
 VARIABLES = {

@@ -1,7 +1,5 @@
 """How much a run of the disc computes and keeps."""
 
-from __future__ import annotations
-
 from falling_disc.case import DiscCase
 
 from tribodyn.mechanisms.workload import Workload

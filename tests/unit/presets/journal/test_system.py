@@ -1,7 +1,5 @@
 """Results of journal cases: what they hold, and what ends early."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

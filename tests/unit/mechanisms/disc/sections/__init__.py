@@ -1,7 +1,5 @@
 """What the report shows of the disc."""
 
-from __future__ import annotations
-
 from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.overlay import Overlay, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
