@@ -10,23 +10,7 @@ from numpy.typing import NDArray
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.joints.surface.data import (
-    AREA,
-    ARM,
-    COUNT,
-    GAP,
-    HEIGHT,
-    LEAST,
-    LIFT,
-    N_ANGLE,
-    N_AXIAL,
-    N_RADIAL,
-    N_RING,
-    NODE_AREA,
-    POSITION,
-    RADIUS,
-    Row,
-)
+from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.lanes import WIDTH
 
 OUT_OF_REACH: Final = 1.0e3
@@ -50,13 +34,13 @@ def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
     nodes
         All nodes, see ``kernels/joints/surface/data.py``.
     """
-    rows, at = np.zeros(sum(own.size for own, _ in surfaces), dtype=Row), 0
+    rows, at = np.zeros(sum(own.size for own, _ in surfaces), dtype=kernel.Row), 0
     for own, first in surfaces:
         rows[at : at + own.size] = own
         rows["first"][at : at + own.size] += first
         at += own.size
     ends = np.stack([rows["first"], rows["first"] + rows["count"]], axis=1)
-    gaps = np.append(nodes[GAP], np.inf)  # an end may lie behind the last node
+    gaps = np.append(nodes[kernel.GAP], np.inf)  # an end may lie behind the last node
     rows["least"] = np.minimum.reduceat(gaps, ends.ravel())[::2]
     ring = rows["whole"] == 0.0
     for count in np.unique(rows["count"][ring]).tolist():
@@ -68,12 +52,12 @@ def _check_rings(rows: Rows, count: int, nodes: FloatArray) -> None:
     """Refuse rows of ``count`` of the nodes that kernels would take for rings."""
     cos, sin, _ = _ring(count)
     here = nodes[:, rows["first"][:, None] + np.arange(count)]
-    radius, _, height = here[POSITION : POSITION + 3, :, :1]
+    radius, _, height = here[kernel.POSITION : kernel.POSITION + 3, :, :1]
     radial, _, axial = rows["normal"].T[:, :, None]
     expected = (radius * cos, radius * sin, height, radial * cos, radial * sin, axial)
-    if max(np.abs(found - at).max() for found, at in zip(here[:AREA], expected, strict=True)) > CLOSE:
+    if max(np.abs(found - at).max() for found, at in zip(here[: kernel.AREA], expected, strict=True)) > CLOSE:
         raise InputError("nodes of a row must lie at equal angles around the axis", key="shape")
-    if np.any(np.ptp(here[AREA], axis=1) > CLOSE * here[AREA, :, 0]):
+    if np.any(np.ptp(here[kernel.AREA], axis=1) > CLOSE * here[kernel.AREA, :, 0]):
         raise InputError("nodes of a row around the axis must have equal areas", key="shape")
 
 
@@ -90,17 +74,25 @@ def _around(node: NDArray[np.int64], count: int) -> FloatArray:
 
 def rings_of(rows: Rows, nodes: FloatArray) -> FloatArray:
     """Return the common data of the nodes of each row, see ``kernels/joints/surface/data.py``."""
-    rings, first = np.zeros((N_RING, rows.size + WIDTH - 1)), rows["first"]
+    rings, first = np.zeros((kernel.N_RING, rows.size + WIDTH - 1)), rows["first"]
     own = rings[:, : rows.size]
-    own[N_RADIAL], own[N_AXIAL], own[ARM] = rows["normal"][:, 0], rows["normal"][:, 2], rows["arm"]
-    own[RADIUS], own[HEIGHT] = nodes[POSITION, first], nodes[POSITION + 2, first]
-    own[LEAST], own[NODE_AREA], own[COUNT] = rows["least"], nodes[AREA, first], rows["count"]
+    own[kernel.N_RADIAL], own[kernel.N_AXIAL], own[kernel.ARM] = (
+        rows["normal"][:, 0],
+        rows["normal"][:, 2],
+        rows["arm"],
+    )
+    own[kernel.RADIUS], own[kernel.HEIGHT] = nodes[kernel.POSITION, first], nodes[kernel.POSITION + 2, first]
+    own[kernel.LEAST], own[kernel.NODE_AREA], own[kernel.COUNT] = (
+        rows["least"],
+        nodes[kernel.AREA, first],
+        rows["count"],
+    )
     return rings
 
 
 def angles_of(rows: Rows) -> FloatArray:
     """Return the table of angles of rings, each number of nodes once; set where those of a ring begin."""
-    ring, parts = rows["whole"] == 0.0, [np.zeros((N_ANGLE, 0))]
+    ring, parts = rows["whole"] == 0.0, [np.zeros((kernel.N_ANGLE, 0))]
     for count in np.unique(rows["count"][ring]):
         rows["angle"][ring & (rows["count"] == count)] = sum(part.shape[1] for part in parts)
         parts.append(_groups(int(count)))
@@ -114,5 +106,5 @@ def _groups(count: int) -> FloatArray:
     begin = np.arange(0, count, WIDTH)
     node = (np.minimum(begin, count - WIDTH)[:, None] + np.arange(WIDTH)).ravel()
     angles = _around(node, count)
-    angles[LIFT] = np.where(node < np.repeat(begin, WIDTH), OUT_OF_REACH, 0.0)
+    angles[kernel.LIFT] = np.where(node < np.repeat(begin, WIDTH), OUT_OF_REACH, 0.0)
     return angles

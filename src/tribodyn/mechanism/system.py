@@ -20,14 +20,9 @@ from tribodyn.mechanism.analyses.analysis import NOTES, analysed
 from tribodyn.mechanism.analyses.ideal_motion import compared
 from tribodyn.mechanism.analyses.sampling import sampled
 from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, without_friction
+from tribodyn.mechanism.assembly import mechanism_problem
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.clearance_surfaces import material_of
-from tribodyn.mechanism.assembly.mechanism_problem import (
-    least_energy,
-    mechanism_problem,
-    stored_energy,
-    template,
-)
 from tribodyn.mechanism.assembly.output_values import MOTION, Motion, Output, outputs_of
 from tribodyn.mechanism.assembly.parts_by_number import Model, model_of
 from tribodyn.mechanism.assembly.passage import drive_through
@@ -41,6 +36,7 @@ from tribodyn.mechanism.mechanism_variables import (
 )
 from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
+from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanism.results.followed import followed, power_columns, transmitted, with_motors
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
@@ -57,16 +53,6 @@ from tribodyn.mechanism.results.kept import (
     note,
 )
 from tribodyn.mechanism.results.maps import Maps
-from tribodyn.mechanism.results.openings import (
-    depth_of,
-    from_time,
-    least_roughness,
-    of_temperatures,
-    openings,
-    opens,
-    radial_clearances,
-    worn_model,
-)
 from tribodyn.mechanism.results.output_columns import (
     error_growth,
     instant_errors,
@@ -108,7 +94,7 @@ class MechanismSystem:
     @cached_property
     def model(self) -> Model:
         """The mechanism as drawn; kinematic analyses have ideal joints, vibrations no friction."""
-        found = from_time(model_of(self._modelled), self.begin)
+        found = temperature_effects.from_time(model_of(self._modelled), self.begin)
         return found.counterpart if self._analysis == "kinematic" else found
 
     @cached_property
@@ -137,8 +123,8 @@ class MechanismSystem:
 
     def _worn(self, depth: FloatArray | None) -> Model:
         """Return the mechanism with the roughness that its joints have at a wear depth [m]."""
-        found = worn_model(self.model, self.maps.places, depth)
-        return found if found is self.model else from_time(found, self.begin)
+        found = temperature_effects.worn_model(self.model, self.maps.places, depth)
+        return found if found is self.model else temperature_effects.from_time(found, self.begin)
 
     @cached_property
     def real(self) -> tuple[tuple[str, Clearance], ...]:
@@ -164,7 +150,9 @@ class MechanismSystem:
     @property
     def nodes(self) -> WearNodes:
         """The nodes of all joints with clearance, shape (n_nodes,)."""
-        return WearNodes(self.maps.area, least_roughness(self.case), _STATES * len(self.model.bodies))
+        return WearNodes(
+            self.maps.area, temperature_effects.least_roughness(self.case), _STATES * len(self.model.bodies)
+        )
 
     @property
     def wear_rates(self) -> WearRates:
@@ -181,11 +169,11 @@ class MechanismSystem:
         coarse = replace(self, case=self.case.with_coarse_grids())
         touches = zip(coarse.maps.names, coarse._contacts(coarse.model).touches, strict=True)
         rough = [text for name, touch in touches for text in named(name, [of_clearance(touch)])]
-        return [*coarse.assembly.remarks, *rough, *of_temperatures(coarse.model)]
+        return [*coarse.assembly.remarks, *rough, *temperature_effects.of_temperatures(coarse.model)]
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]."""
-        problem = mechanism_problem(
+        problem = mechanism_problem.mechanism_problem(
             self.assembly if worn is None else self._assembled(worn.depth),
             duration=duration,
             rtol=self.case.solver.rtol,
@@ -202,7 +190,7 @@ class MechanismSystem:
 
     def template(self) -> Problem:
         """Return a problem of which only the types count, to compile the equations from."""
-        return template(self.model)
+        return mechanism_problem.template(self.model)
 
     def start(self) -> FloatArray | None:
         """Return the state in which a run begins, shape (13 n,); None for that of the drawing.
@@ -251,7 +239,7 @@ class MechanismSystem:
 
     def contact_energy(self, worn: Worn) -> float:
         """Return the energy stored in the contact [J]."""
-        return stored_energy(self.problem(self.period, worn))
+        return mechanism_problem.stored_energy(self.problem(self.period, worn))
 
     def output_lives(self, run: FinishedRun, depth: FloatArray) -> dict[str, float]:
         """Return after how many cycles the errors of outputs reach their limits, by their names."""
@@ -283,18 +271,25 @@ class MechanismSystem:
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         vibrations = self._vibrations(found, run)
-        balance = balance_columns(found.whole, oiled=bool(self.model.oiled), opening=any(opens(self.model)))
-        least = least_energy(self.assembly, found.couplings["reaction_force"], self.case.solver.rtol)
+        balance = balance_columns(
+            found.whole, oiled=bool(self.model.oiled), opening=any(temperature_effects.opens(self.model))
+        )
+        least = mechanism_problem.least_energy(
+            self.assembly, found.couplings["reaction_force"], self.case.solver.rtol
+        )
         energy = {WHOLE.attribute: WHOLE.fraction(balance, least)}
         if self._analysis != "dynamic":
             energy.clear()
             del balance[WHOLE.residual]
         peaks = self._peaks(run)
-        worn = self._worn(depth_of(run.problem.data.contact, self.maps.places))
+        worn = self._worn(temperature_effects.depth_of(run.problem.data.contact, self.maps.places))
         contacts = self._contacts(worn)
         of_contacts = (
             contacts.numbers_of(
-                run.problem.data.contact, found.couplings, peaks, openings(worn, run.solution.t)
+                run.problem.data.contact,
+                found.couplings,
+                peaks,
+                temperature_effects.openings(worn, run.solution.t),
             )
             if peaks
             else {}
@@ -305,7 +300,7 @@ class MechanismSystem:
                 **columns(self.model, found),
                 **transmitted(self.model, found.couplings),
                 **power_columns(self.model, found.couplings),
-                **radial_clearances(self.model, run.solution.t),
+                **temperature_effects.radial_clearances(self.model, run.solution.t),
                 **of_outputs,
                 **vibrations.columns,
                 **{name: values for name, values in found.whole.items() if name not in _IN_BALANCE},
@@ -351,7 +346,7 @@ class MechanismSystem:
                 *self.assembly.notes,
                 *vibrations.notes,
                 *note(self.case),
-                *of_temperatures(self.model),
+                *temperature_effects.of_temperatures(self.model),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
                 *self._reversals.notes(float(run.solution.t_end), carried=run.carried),

@@ -27,15 +27,7 @@ from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
 from tribodyn.results.atomic import write_bytes, write_text
 from tribodyn.simulation import simulate
-from tribodyn.studies.least_squares import (
-    CONFIDENCE,
-    FitParameter,
-    LeastSquares,
-    Loss,
-    cost_of,
-    fit,
-    starting_points,
-)
+from tribodyn.studies import least_squares
 from tribodyn.studies.measured import Experiment, MeasuredCurve, MeasuredNumber
 from tribodyn.studies.search import key_range
 from tribodyn.studies.variation import written
@@ -171,48 +163,52 @@ class Calibration:
         missed = (computed - self.values) / self.noise
         return np.where(np.isfinite(missed), missed, _FAILED)
 
-    def parameters(self) -> list[FitParameter]:
+    def parameters(self) -> list[least_squares.FitParameter]:
         """Return the parameters of the fit: shares of the ranges, plus one, so that steps are shares, too."""
-        return [FitParameter(one.key.path, 1.0, 2.0) for one in self.keys]
+        return [least_squares.FitParameter(one.key.path, 1.0, 2.0) for one in self.keys]
 
-    def fitted(self, starts: int) -> LeastSquares:
+    def fitted(self, starts: int) -> least_squares.LeastSquares:
         """Return the fit, from the best of several starts, with the noise scaled to the scatter."""
         parameters = self.parameters()
         robust = self.values.size - len(parameters) >= _FEW
-        loss: Loss = "soft_l1" if robust else "linear"
+        loss: least_squares.Loss = "soft_l1" if robust else "linear"
         best = min((self._from(start, loss) for start in self._screened(starts, loss)), key=_cost)
         if robust:
             self.noise = self.noise * max(_GAUSSIAN * float(np.median(np.abs(best.residuals))), 1e-12)
-        return fit(self.residuals, parameters, start=best.named, loss=loss, step=STEP, tolerance=FINE)
+        return least_squares.fit(
+            self.residuals, parameters, start=best.named, loss=loss, step=STEP, tolerance=FINE
+        )
 
-    def _screened(self, starts: int, loss: Loss) -> list[dict[str, float]]:
+    def _screened(self, starts: int, loss: least_squares.Loss) -> list[dict[str, float]]:
         """Return the points with the least cost among several times as many."""
         names = [one.key.path for one in self.keys]
         points = [
             dict(zip(names, point, strict=True))
-            for point in starting_points(self.parameters(), _SCREENED * starts)
+            for point in least_squares.starting_points(self.parameters(), _SCREENED * starts)
         ]
-        return sorted(points, key=lambda point: cost_of(self.residuals(point), loss))[:starts]
+        return sorted(points, key=lambda point: least_squares.cost_of(self.residuals(point), loss))[:starts]
 
-    def _from(self, start: Mapping[str, float], loss: Loss) -> LeastSquares:
-        return fit(self.residuals, self.parameters(), start=start, loss=loss, step=STEP, tolerance=COARSE)
+    def _from(self, start: Mapping[str, float], loss: least_squares.Loss) -> least_squares.LeastSquares:
+        return least_squares.fit(
+            self.residuals, self.parameters(), start=start, loss=loss, step=STEP, tolerance=COARSE
+        )
 
-    def profile(self, found: LeastSquares, which: int) -> tuple[float, float]:
+    def profile(self, found: least_squares.LeastSquares, which: int) -> tuple[float, float]:
         """Return the profile interval of a key [SI], from the cost with all other keys fitted.
 
         At both ends it has risen by the 95 % quantile; an end beyond the range is that of the range.
         """
         parameters = self.parameters()
         name, others = parameters[which].name, [one for k, one in enumerate(parameters) if k != which]
-        allowed = 0.5 * float(stats.f.ppf(CONFIDENCE, 1, found.freedoms)) * found.scatter
+        allowed = 0.5 * float(stats.f.ppf(least_squares.CONFIDENCE, 1, found.freedoms)) * found.scatter
         best, guess = found.named[name], max(found.half_width(name), STEP)
 
         def rise(place: float) -> float:
             fixed = {name: place}
             if not others:
-                return cost_of(self.residuals(fixed), found.loss) - found.cost
+                return least_squares.cost_of(self.residuals(fixed), found.loss) - found.cost
             start = _along(found, which, place)
-            inner = fit(
+            inner = least_squares.fit(
                 lambda given: self.residuals({**given, **fixed}),
                 others,
                 start=start,
@@ -280,11 +276,11 @@ class Calibration:
             self.known[json.dumps(values)] = computed
 
 
-def _cost(found: LeastSquares) -> float:
+def _cost(found: least_squares.LeastSquares) -> float:
     return found.cost
 
 
-def _along(found: LeastSquares, which: int, place: float) -> dict[str, float]:
+def _along(found: least_squares.LeastSquares, which: int, place: float) -> dict[str, float]:
     """Return the likely values of the other parameters when one is moved, by the covariance."""
     covariance = found.covariance()
     slope = covariance[:, which] / max(covariance[which, which], 1e-300)

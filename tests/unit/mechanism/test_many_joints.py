@@ -63,7 +63,7 @@ def test_a_figure_of_many_surfaces_shows_those_with_the_largest_values(many: xr.
         surface=[f"{n}:face" for n in NAMES]
     )
     both = xr.concat([many, faces], "surface", data_vars="minimal")
-    figure = draw_maps("wear_depth", "Wear depth", "wear", "", both.assign_attrs(title="Many"))
+    figure = draw_maps(joints.WEAR, both.assign_attrs(title="Many"))
     captions = [axes.get_title(loc="left") for axes in figure.axes]
     assert {f"{name}:barrel" for name in NAMES[4:]} <= set(captions)
     assert not any("face" in text for text in captions)

@@ -13,21 +13,13 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
+from tribodyn.kernels.mechanism import solution
 from tribodyn.kernels.mechanism.bodies import move, place
 from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, MechanismData, Parts
 from tribodyn.kernels.mechanism.equations import ROUNDS
 from tribodyn.kernels.mechanism.follow import follow
 from tribodyn.kernels.mechanism.functions import SMALL
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
-from tribodyn.kernels.mechanism.solution import (
-    HARD,
-    close,
-    correct_velocities,
-    kinematics,
-    mark_angles,
-    set_compliance,
-    set_offsets,
-)
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT, factors, null_space, svd, with_unit_rows
 from tribodyn.mechanism.assembly.odd_axes import odd_axes
 from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
@@ -111,8 +103,8 @@ class System:
 
     def refresh(self) -> None:
         """Fill kinematics where the bodies are, and count whole turns from there."""
-        kinematics(self.parts, self.now, self.data.signals, self.t)
-        mark_angles(self.now.couplings)
+        solution.kinematics(self.parts, self.now, self.data.signals, self.t)
+        solution.mark_angles(self.now.couplings)
 
     def position(self) -> Position:
         """Return the positions of the bodies, with their whole turns, for :meth:`restore`."""
@@ -127,7 +119,7 @@ class System:
         """Put the bodies where a state on the constraints has them, and count angles from there."""
         place(state, self.now.bodies)
         self.refresh()
-        set_offsets(self.parts, self.now)
+        solution.set_offsets(self.parts, self.now)
         self.refresh()
 
     def take_positions(self, other: System) -> None:
@@ -229,7 +221,7 @@ class System:
         """Let compiled solutions know how many rows are independent, and what each row moves."""
         self.parts.constants.rank = rank
         row_scale(self.parts, self.now)
-        set_compliance(self.parts, self.now)
+        solution.set_compliance(self.parts, self.now)
         self._wait = 0
 
     def close_fast(self) -> float:
@@ -239,14 +231,14 @@ class System:
             choose_rows(self.parts, self.now, np.zeros((n, n)))
             self._wait = 1 + (n // SMALL) ** 3
         self._wait -= 1
-        close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
+        solution.close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
         return self.gap()
 
     def move_with_drives(self, direction: float) -> None:
         """Fill the velocities of the drives, running forward (1) or back (−1); freedoms are at rest."""
         self.now.bodies.v[:] = self.now.bodies.w[:] = 0.0
         self.refresh()
-        correct_velocities(self.parts, self.now, self.data.mass, self._blocks, 0.0)
+        solution.correct_velocities(self.parts, self.now, self.data.mass, self._blocks, 0.0)
         self.now.bodies.v[:] *= direction
         self.now.bodies.w[:] *= direction
         self.refresh()
@@ -462,7 +454,7 @@ class System:
 
 def _lost(share: float) -> float:
     """Return the relative error of reactions; ``share`` is the least singular value, by mass, squared."""
-    return float((HARD / (HARD + share)) ** ROUNDS)
+    return float((solution.HARD / (solution.HARD + share)) ** ROUNDS)
 
 
 def _is_exact(share: float, of_places: float) -> bool:

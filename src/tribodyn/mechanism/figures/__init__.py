@@ -16,9 +16,7 @@ FIGURES: Final[dict[str, Family]] = {
         mechanism.MODE_SHAPES,
         *map(chart.family, CHARTS),
         joints.ORBITS,
-        joints.PRESSURE,
-        joints.FILM_PRESSURE,
-        joints.WEAR,
+        *joints.MAPS,
         energy.family(BALANCES),
         wear.HISTORY,
     )

@@ -14,10 +14,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import BLUE, GREY, INK, SMALL, caption, finish, note, sheet
 from tribodyn.figures.unrolled import COLOURS
-from tribodyn.mechanism.sections.joints import LAID_FLAT, MOST, WORN, real_joints, surfaces
+from tribodyn.mechanism.sections import joints as maps
+from tribodyn.mechanism.sections.joints import MOST, SurfaceMap, real_joints, surfaces
 from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, rolled
-from tribodyn.views.wear import fitting_unit
 
 _ACROSS: Final = 3
 """Panels beside each other; one less where their names are long."""
@@ -43,27 +43,26 @@ def draw_orbits(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def draw_maps(name: str, title: str, label: str, unit: str, dataset: xr.Dataset) -> Figure:
+def draw_maps(drawn: SurfaceMap, dataset: xr.Dataset) -> Figure:
     """Draw the largest values of a field on every surface that is not empty."""
-    found = [part for part in surfaces(dataset, name) if part[3].max(initial=0.0) > 0.0]
+    found = [part for part in surfaces(dataset, drawn.variable) if part[3].max(initial=0.0) > 0.0]
     which = ""
     if real_joints(dataset).which and len(found) > MOST:
         largest = sorted(range(len(found)), key=lambda k: -float(found[k][3].max()))[:MOST]
         found = [found[k] for k in sorted(largest)]
-        every = dataset.sizes["film" if "film" in dataset[name].dims else "surface"]
-        which = f", {MOST} surfaces of {every} with the largest values"
+        which = f", {MOST} surfaces of {dataset.sizes[drawn.per]} with the largest values"
     names = [surface for surface, *_ in found]
-    figure, panels = _grid(dataset, f"{title}{which}", names, 2.2)
+    figure, panels = _grid(dataset, f"{drawn.heading}{which}", names, 2.2)
     for axes, (surface, place, theta, fields) in zip(panels, found, strict=False):
         field = fields.max(axis=0)
-        shown, size = (unit, 1e6) if unit else fitting_unit(float(field.max()))
+        shown, size = drawn.unit(float(field.max()))
         _draw_map(axes, place, theta, field / size)
         caption(axes, surface)
         text = f"largest {field.max() / size:.3g} {shown}"
         axes.text(1.0, 1.04, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
         finish(axes, "angle [°]", "[mm]")
     if not found:
-        note(panels[0], f"no {label}")
+        note(panels[0], f"no {drawn.label.removesuffix(' depth')}")
     return figure
 
 
@@ -99,28 +98,13 @@ ORBITS: Final = Family(
     needs=("displacement", "clearance", "joint", "surface"),
     draw=draw_orbits,
 )
-PRESSURE: Final = Family(
-    name="pressure_maps",
-    title="Contact pressure, largest in the cycle",
-    caption=LAID_FLAT,
-    needs=("pressure_cycle", "surface"),
-    draw=partial(
-        draw_maps, "pressure_cycle", "Contact pressure, largest in the cycle", "contact pressure", "MPa"
-    ),
-)
-FILM_PRESSURE: Final = Family(
-    name="film_maps",
-    title="Film pressure, largest in the cycle",
-    caption="Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
-    needs=("film_pressure_cycle", "film"),
-    draw=partial(
-        draw_maps, "film_pressure_cycle", "Film pressure, largest in the cycle", "film pressure", "MPa"
-    ),
-)
-WEAR: Final = Family(
-    name="wear_maps",
-    title="Wear depth",
-    caption=WORN,
-    needs=("wear_depth", "surface"),
-    draw=partial(draw_maps, "wear_depth", "Wear depth", "wear", ""),
+MAPS: Final = tuple(
+    Family(
+        name=one.figure,
+        title=one.heading,
+        caption=one.caption,
+        needs=(one.variable, one.per),
+        draw=partial(draw_maps, one),
+    )
+    for one in maps.MAPS
 )

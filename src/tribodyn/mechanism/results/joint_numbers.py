@@ -9,14 +9,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanism.results.readings import (
-    above_zero,
-    least,
-    lengths,
-    of_joint,
-    of_surfaces,
-    offset,
-)
+from tribodyn.mechanism.results import readings
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import column, of_part, peak, rms, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult
@@ -28,7 +21,10 @@ def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByP
 
     def value(dataset: xr.Dataset, joint: str) -> float:
         values = column(dataset, f"{quantity}_outside")
-        return above_zero(peak(values[:, of_joint(dataset, joint)] if joint else values)) * scale
+        return (
+            readings.above_zero(peak(values[:, readings.of_joint(dataset, joint)] if joint else values))
+            * scale
+        )
 
     def made(joint: str) -> KeyResult:
         name = label if joint else f"{label} in a joint"
@@ -60,7 +56,7 @@ def _driven(label: str, unit: str, meaning: str, reduce: Callable[[xr.Dataset, s
         if not joint:
             return reduce(dataset, slice(None))
         several = np.count_nonzero(column(dataset, "drive_power").any(axis=0)) > 1
-        k = of_joint(dataset, joint)
+        k = readings.of_joint(dataset, joint)
         return reduce(dataset, slice(k, k + 1)) if several else math.nan
 
     def made(joint: str) -> KeyResult:
@@ -71,11 +67,11 @@ def _driven(label: str, unit: str, meaning: str, reduce: Callable[[xr.Dataset, s
 
 
 def _rms(effort: str, dataset: xr.Dataset, joints: slice) -> float:
-    return above_zero(max(rms(dataset, values) for values in column(dataset, effort)[:, joints].T))
+    return readings.above_zero(max(rms(dataset, values) for values in column(dataset, effort)[:, joints].T))
 
 
 def _peak(quantity: str, dataset: xr.Dataset, joints: slice) -> float:
-    return above_zero(peak(settled(dataset, column(dataset, quantity)[:, joints])))
+    return readings.above_zero(peak(settled(dataset, column(dataset, quantity)[:, joints])))
 
 
 def _rate_at_peak(effort: str, other: str, dataset: xr.Dataset, joints: slice) -> float:
@@ -91,7 +87,7 @@ DRIVEN: Final[dict[str, ByPart]] = {
         "Power of the drives, rms",
         "W",
         "Root mean square over the run.",
-        lambda d, joints: above_zero(rms(d, column(d, "drive_power")[:, joints].sum(axis=1))),
+        lambda d, joints: readings.above_zero(rms(d, column(d, "drive_power")[:, joints].sum(axis=1))),
     ),
     "drive_moment_rms_Nm": _driven(
         "Drive moment, rms",
@@ -151,14 +147,14 @@ def pair(
             unit,
             group,
             f"{meaning} for 99 % of the time; impacts excluded.",
-            lambda d: above_zero(sustained(d, values(d))) * scale,
+            lambda d: readings.above_zero(sustained(d, values(d))) * scale,
         ),
         loud: KeyResult(
             f"{label}, peak",
             unit,
             group,
             "Largest value at any step of the integration, impacts included.",
-            lambda d: above_zero(peak(settled(d, values(d)))) * scale,
+            lambda d: readings.above_zero(peak(settled(d, values(d)))) * scale,
             over="cycles",
             span="over {} cycle",
         ),
@@ -169,7 +165,7 @@ def _named(
     label: str, unit: str, group: str, meaning: str, compute: Callable[[xr.Dataset, int], float]
 ) -> ByPart:
     def made(joint: str) -> KeyResult:
-        number = KeyResult(label, unit, group, meaning, lambda d: compute(d, of_joint(d, joint)))
+        number = KeyResult(label, unit, group, meaning, lambda d: compute(d, readings.of_joint(d, joint)))
         return number.of_part(joint)
 
     return made
@@ -193,7 +189,7 @@ def _pair_named(
             unit,
             "Joints",
             meaning,
-            lambda d: values(d, of_joint(d, joint)),
+            lambda d: values(d, readings.of_joint(d, joint)),
             scale=scale,
         )
         return both[name].of_part(joint)
@@ -219,21 +215,21 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Force",
         "N",
         "Largest force in this joint",
-        lambda d, j: of_part(d, "reaction_force", j, lengths),
+        lambda d, j: of_part(d, "reaction_force", j, readings.lengths),
     ),
     "force_mean_N": _named(
         "Force, mean",
         "N",
         "Joints",
         "Mean force in this joint; wear is proportional to it.",
-        lambda d, j: time_mean(d, of_part(d, "reaction_force", j, lengths)),
+        lambda d, j: time_mean(d, of_part(d, "reaction_force", j, readings.lengths)),
     ),
     "offset_max_um": _named(
         "Offset, largest",
         "µm",
         "Joints",
         "Largest distance of the pin from the centre of the bore.",
-        lambda d, j: peak(settled(d, offset(d, j))) * 1e6,
+        lambda d, j: peak(settled(d, readings.offset(d, j))) * 1e6,
     ),
     **_pair_named(
         ("pressure_lasting_MPa", "peak_pressure_MPa"),
@@ -248,7 +244,9 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "J",
         "Joints",
         "Heat of dry friction in this joint since the start of the run; its oil film is not counted.",
-        lambda d, j: float(column(d, "joint_friction")[-1, j]) if of_surfaces(d, j).size else math.nan,
+        lambda d, j: (
+            float(column(d, "joint_friction")[-1, j]) if readings.of_surfaces(d, j).size else math.nan
+        ),
     ),
     "flash_temperature_K": _named(
         "Flash temperature",
@@ -269,21 +267,21 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "µm",
         "Joints",
         "Smallest gap of the oil film of this joint.",
-        lambda d, j: least(settled(d, of_part(d, "film_thickness_min", j))) * 1e6,
+        lambda d, j: readings.least(settled(d, of_part(d, "film_thickness_min", j))) * 1e6,
     ),
     "wear_depth_nm": _named(
         "Wear depth",
         "nm",
         "Joints",
         "Largest wear depth of this joint.",
-        lambda d, j: peak(column(d, "wear_depth")[of_surfaces(d, j)]) * 1e9,
+        lambda d, j: peak(column(d, "wear_depth")[readings.of_surfaces(d, j)]) * 1e9,
     ),
     "wear_rate_nm_per_1000_cycles": _named(
         "Wear rate",
         "nm per 1000 cycles",
         "Joints",
         "Growth of the largest wear depth of this joint, at the last stop of a campaign or in this run.",
-        lambda d, j: 1e12 * wear_rate(d, of_surfaces(d, j)),
+        lambda d, j: 1e12 * wear_rate(d, readings.of_surfaces(d, j)),
     ),
     "wear_life_cycles": _named(
         "Life by depth",
@@ -291,28 +289,28 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Joints",
         "Drive cycles until this joint is worn to the depth limit, both partners together, at its last "
         "rate; all of them, those of the campaign included.",
-        lambda d, j: wear_life(d, of_surfaces(d, j)),
+        lambda d, j: wear_life(d, readings.of_surfaces(d, j)),
     ),
     "bore_life_cycles": _named(
         "Life of the bore",
         "cycles",
         "Joints",
         "Drive cycles until the bore alone is worn to the depth limit, where both partners wear.",
-        lambda d, j: wear_life(d, of_surfaces(d, j), "bore"),
+        lambda d, j: wear_life(d, readings.of_surfaces(d, j), "bore"),
     ),
     "shaft_life_cycles": _named(
         "Life of the shaft",
         "cycles",
         "Joints",
         "Drive cycles until the shaft alone is worn to the depth limit, where both partners wear.",
-        lambda d, j: wear_life(d, of_surfaces(d, j), "shaft"),
+        lambda d, j: wear_life(d, readings.of_surfaces(d, j), "shaft"),
     ),
     "partner_wear_depth_nm": _named(
         "Wear depth of the partner",
         "nm",
         "Joints",
         "Its part of the wear depth of this joint, where both wear.",
-        lambda d, j: peak(column(d, "partner_wear_depth")[of_surfaces(d, j)]) * 1e9,
+        lambda d, j: peak(column(d, "partner_wear_depth")[readings.of_surfaces(d, j)]) * 1e9,
     ),
 }
 """Numbers of each joint, by what stands before its name."""

@@ -8,24 +8,10 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.results import readings
 from tribodyn.mechanism.results.joint_numbers import DRIVEN, OUTSIDE, pair
-from tribodyn.mechanism.results.readings import (
-    WHOLE,
-    above_zero,
-    least,
-    offset,
-    sizes,
-)
 from tribodyn.mechanisms.mechanism_protocol import ByPart
-from tribodyn.results.reading import (
-    column,
-    in_settled,
-    peak,
-    period,
-    reversals_held,
-    settled,
-    time_mean,
-)
+from tribodyn.results import reading
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
@@ -34,22 +20,22 @@ _ROUNDING: Final = 1e-9
 
 def _cycles(dataset: xr.Dataset) -> float:
     """Return the number of whole cycles evaluated; NaN for none."""
-    whole = math.floor(column(dataset, "time")[-1] / period(dataset) + _ROUNDING)
-    return above_zero(whole if in_settled(dataset)[0] else whole - 1)
+    whole = math.floor(reading.column(dataset, "time")[-1] / reading.period(dataset) + _ROUNDING)
+    return readings.above_zero(whole if reading.in_settled(dataset)[0] else whole - 1)
 
 
 def _scatter(dataset: xr.Dataset) -> float:
     """Return by how much the largest forces of the cycles looked at differ, of their mean [%]."""
-    time, n = settled(dataset, column(dataset, "time")), int(_cycles(dataset))
-    force = settled(dataset, sizes(dataset, "reaction_force").max(axis=1))
-    edges = np.searchsorted(time, time[0] + period(dataset) * np.arange(1, n))
+    time, n = reading.settled(dataset, reading.column(dataset, "time")), int(_cycles(dataset))
+    force = reading.settled(dataset, readings.sizes(dataset, "reaction_force").max(axis=1))
+    edges = np.searchsorted(time, time[0] + reading.period(dataset) * np.arange(1, n))
     found = np.array([part.max() for part in np.split(force, edges)])
     return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
 
 
 def _mean_rate(dataset: xr.Dataset, energy: FloatArray) -> float:
     """Return the mean power [W] over the run from an energy since its start."""
-    time = column(dataset, "time")
+    time = reading.column(dataset, "time")
     return float((energy[-1] - energy[0]) / (time[-1] - time[0])) if time[-1] > time[0] else math.nan
 
 
@@ -58,11 +44,11 @@ def _power(dataset: xr.Dataset) -> float:
 
     The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
     """
-    if not column(dataset, "drive_power").any():
+    if not reading.column(dataset, "drive_power").any():
         return math.nan
     gained, others = (
-        sum(column(dataset, name) for name in names if name in dataset.variables)
-        for names in (WHOLE.gained, ("energy_loads", "energy_expansion"))
+        sum(reading.column(dataset, name) for name in names if name in dataset.variables)
+        for names in (readings.WHOLE.gained, ("energy_loads", "energy_expansion"))
     )
     return _mean_rate(dataset, np.asarray(gained - others))
 
@@ -73,7 +59,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "",
         "Load",
         "Reversals of a drive in this result with the impacts that follow them.",
-        reversals_held,
+        reading.reversals_held,
         count=True,
     ),
     "cycles": KeyResult(
@@ -90,7 +76,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "N",
         "Load",
         "Largest force that any joint carries",
-        lambda d: sizes(d, "reaction_force"),
+        lambda d: readings.sizes(d, "reaction_force"),
     ),
     **pair(
         ("pressure_lasting_MPa", "peak_pressure_MPa"),
@@ -98,7 +84,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "MPa",
         "Load",
         "Highest pressure in any joint, to compare with the hardness",
-        lambda d: column(d, "pressure_max"),
+        lambda d: reading.column(d, "pressure_max"),
         scale=1e-6,
     ),
     **{name: made("") for name, made in OUTSIDE.items()},
@@ -108,7 +94,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "Load",
         "How much warmer than the surfaces their asperities get in any joint, an estimate, where pressure "
         "times speed is largest.",
-        lambda d: peak(column(d, "flash_temperature")),
+        lambda d: reading.peak(reading.column(d, "flash_temperature")),
         digits=2,
     ),
     **pair(
@@ -117,7 +103,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "N m",
         "Drive",
         "Largest moment of a motor",
-        lambda d: column(d, "drive_moment"),
+        lambda d: reading.column(d, "drive_moment"),
     ),
     **pair(
         ("drive_force_lasting_N", "drive_force_max_N"),
@@ -125,7 +111,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "N",
         "Drive",
         "Largest force of an actuator",
-        lambda d: column(d, "drive_force"),
+        lambda d: reading.column(d, "drive_force"),
     ),
     **pair(
         ("drive_power_lasting_W", "drive_power_max_W"),
@@ -133,7 +119,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "W",
         "Drive",
         "Power of all drives, motors and controllers together",
-        lambda d: column(d, "drive_power").sum(axis=1),
+        lambda d: reading.column(d, "drive_power").sum(axis=1),
     ),
     "drive_power_mean_W": KeyResult(
         "Power of the drives, mean",
@@ -147,7 +133,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "W",
         "Drive",
         "Mean power of all loads over the run; below zero where they take what drives give.",
-        lambda d: _mean_rate(d, column(d, "energy_loads")),
+        lambda d: _mean_rate(d, reading.column(d, "energy_loads")),
     ),
     **{name: made("") for name, made in DRIVEN.items()},
     "offset_max_um": KeyResult(
@@ -155,42 +141,42 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "µm",
         "Accuracy",
         "Largest distance of a pin from the centre of its bore.",
-        lambda d: peak(settled(d, offset(d))) * 1e6,
+        lambda d: reading.peak(reading.settled(d, readings.offset(d))) * 1e6,
     ),
     "friction_heat_J": KeyResult(
         "Dry friction heat, whole run",
         "J",
         "Loss",
         "Heat of dry friction in all joints since the start of the run; oil films are not counted.",
-        lambda d: float(column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
+        lambda d: float(reading.column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
     ),
     "film_pressure_max_MPa": KeyResult(
         "Film pressure, peak",
         "MPa",
         "Oil film",
         "Largest pressure in the oil film of any joint.",
-        lambda d: peak(settled(d, column(d, "film_pressure_max"))) * 1e-6,
+        lambda d: reading.peak(reading.settled(d, reading.column(d, "film_pressure_max"))) * 1e-6,
     ),
     "film_thickness_min_um": KeyResult(
         "Film thickness, smallest",
         "µm",
         "Oil film",
         "Smallest gap of any oil film; below a few rms roughnesses asperities carry a part of the load.",
-        lambda d: least(settled(d, column(d, "film_thickness_min"))) * 1e6,
+        lambda d: readings.least(reading.settled(d, reading.column(d, "film_thickness_min"))) * 1e6,
     ),
     "film_power_mean_W": KeyResult(
         "Film friction power, mean",
         "W",
         "Oil film",
         "Mean power that all oil films dissipate.",
-        lambda d: time_mean(d, np.nansum(column(d, "film_power"), axis=1)),
+        lambda d: reading.time_mean(d, np.nansum(reading.column(d, "film_power"), axis=1)),
     ),
     "wear_depth_max_nm": KeyResult(
         "Wear depth, largest",
         "nm",
         "Wear",
         "Largest wear depth of any joint.",
-        lambda d: peak(column(d, "wear_depth")) * 1e9,
+        lambda d: reading.peak(reading.column(d, "wear_depth")) * 1e9,
     ),
     **WEAR_NUMBERS,
     "cycle_scatter_percent": KeyResult(
@@ -227,7 +213,7 @@ def _of_mode(
     def made(mode: str) -> KeyResult:
         def compute(dataset: xr.Dataset) -> float:
             number = [str(name) for name in dataset["mode"].values].index(mode)
-            return reduce(column(dataset, variable)[:, number])
+            return reduce(reading.column(dataset, variable)[:, number])
 
         return KeyResult(label, unit, "Modes", meaning, compute, digits=digits).of_part(mode)
 

@@ -17,13 +17,13 @@ CHAPTERS: Final = (
         "playback",
         "One cycle",
         "Everything in this part shows the same moment. Move the slider, or press play.",
-        (mechanism.SECTION, ORBITS, PRESSURE, FILM_PRESSURE),
+        (mechanism.SECTION, ORBITS, PRESSURE.section, FILM_PRESSURE.section),
         playback=True,
     ),
     Chapter(
         "time", "Over time", OVER_TIME, (*(chart.section for chart in CHARTS), REACTIONS, ENERGY.section)
     ),
-    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR, WEAR_HISTORY)),
+    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR.section, WEAR_HISTORY)),
 )
 """Chapters in reading order."""
 

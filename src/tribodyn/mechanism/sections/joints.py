@@ -1,6 +1,6 @@
 """Sections on the joints: forces, the motion in the clearance, pressure and wear, joint by joint."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -127,42 +127,73 @@ def _orbit(shafts: Shafts, joint: int, times: FloatArray) -> dict[str, Any]:
     }
 
 
-def pressures(dataset: xr.Dataset) -> Payload | None:
-    """Return the frames of pressure of every surface [MPa]."""
-    if dataset["pressure_cycle"].shape[0] < 2:
-        return None
-    return _maps(dataset, "pressure_cycle", lambda _: ("MPa", 1e6), "contact pressure", 1.6)
+@dataclass(frozen=True)
+class SurfaceMap:
+    """A field on the surfaces of joints, or of their films, cut open and laid flat.
 
+    Attributes
+    ----------
+    variable
+        Name of the field in a result.
+    name, figure
+        Names of its section and of its figure.
+    label, caption
+        What it is, and how to read it.
+    per
+        Name of the dimension that counts its surfaces.
+    moving
+        Whether it is one for each frame, a pressure [MPa]; otherwise a depth in a unit that fits.
+    """
 
-def film_pressures(dataset: xr.Dataset) -> Payload | None:
-    """Return the frames of pressure of every oil film [MPa]."""
-    if dataset["film_pressure_cycle"].shape[0] < 2:
-        return None
-    return _maps(dataset, "film_pressure_cycle", lambda _: ("MPa", 1e6), "film pressure", 1.6)
+    variable: str
+    name: str
+    figure: str
+    label: str
+    caption: str
+    per: str
+    moving: bool
 
+    @property
+    def heading(self) -> str:
+        """Title of the figure, which shows the largest values of those of all frames."""
+        title = self.section.title
+        return f"{title}, largest in the cycle" if self.moving else title
 
-def wear(dataset: xr.Dataset) -> Payload | None:
-    """Return the wear depth of every surface as one picture each, in a unit that fits."""
-    return _maps(dataset, "wear_depth", fitting_unit, "wear depth", 1.0)
+    def unit(self, largest: float) -> tuple[str, float]:
+        """Return name and size [SI] of the unit in which values up to ``largest`` are shown."""
+        return ("MPa", 1e6) if self.moving else fitting_unit(largest)
 
-
-def _maps(
-    dataset: xr.Dataset, name: str, unit_of: Callable[[float], tuple[str, float]], label: str, room: float
-) -> Payload | None:
-    """Return maps of all surfaces that are not empty; colours go ``room`` times as far as the median peak."""
-    parts: dict[str, Any] = {}
-    for surface, place, theta, fields in surfaces(dataset, name):
-        largest = float(fields.max(initial=0.0))
-        if not largest > 0.0:
-            continue
-        unit, size = unit_of(largest)
-        cut = best_cut(theta, shares(fields))
-        middle = 0.5e3 * float(place[0] + place[-1])
-        laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
-        parts[surface] = laid.payload(
-            fields / size, label, unit, lambda peaks: room * float(np.median(peaks[peaks > 0.0]))
+    @property
+    def section(self) -> Section:
+        """The field on a page, frame by frame."""
+        return Section(
+            name=self.name,
+            title=self.label.capitalize(),
+            caption=self.caption,
+            needs=(self.variable, *(("frame_time",) if self.moving else ()), self.per),
+            widget="choice",
+            data=self._payload,
+            still=self.figure,
         )
-    return choice("field", f"surface{real_joints(dataset).which}", parts)
+
+    def _payload(self, dataset: xr.Dataset) -> Payload | None:
+        """Return maps of surfaces that are not empty; colours reach 1.6 times the median peak of frames."""
+        if self.moving and dataset[self.variable].shape[0] < 2:
+            return None
+        parts: dict[str, Any] = {}
+        room = 1.6 if self.moving else 1.0
+        for surface, place, theta, fields in surfaces(dataset, self.variable):
+            largest = float(fields.max(initial=0.0))
+            if not largest > 0.0:
+                continue
+            unit, size = self.unit(largest)
+            cut = best_cut(theta, shares(fields))
+            middle = 0.5e3 * float(place[0] + place[-1])
+            laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
+            parts[surface] = laid.payload(
+                fields / size, self.label, unit, lambda peaks: room * float(np.median(peaks[peaks > 0.0]))
+            )
+        return choice("field", f"surface{real_joints(dataset).which}", parts)
 
 
 def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
@@ -212,30 +243,18 @@ ORBITS: Final = Section(
     data=orbits,
     still="orbits",
 )
-PRESSURE: Final = Section(
-    name="pressure",
-    title="Contact pressure",
-    caption=LAID_FLAT,
-    needs=("pressure_cycle", "frame_time", "surface"),
-    widget="choice",
-    data=pressures,
-    still="pressure_maps",
+PRESSURE: Final = SurfaceMap(
+    "pressure_cycle", "pressure", "pressure_maps", "contact pressure", LAID_FLAT, "surface", moving=True
 )
-FILM_PRESSURE: Final = Section(
-    name="film_pressure",
-    title="Film pressure",
-    caption="Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
-    needs=("film_pressure_cycle", "frame_time", "film"),
-    widget="choice",
-    data=film_pressures,
-    still="film_maps",
+FILM_PRESSURE: Final = SurfaceMap(
+    "film_pressure_cycle",
+    "film_pressure",
+    "film_maps",
+    "film pressure",
+    "Oil films cut open and laid flat: the angle about the axis of the joint, and the height.",
+    "film",
+    moving=True,
 )
-WEAR: Final = Section(
-    name="wear",
-    title="Wear depth",
-    caption=WORN,
-    needs=("wear_depth", "surface"),
-    widget="choice",
-    data=wear,
-    still="wear_maps",
-)
+WEAR: Final = SurfaceMap("wear_depth", "wear", "wear_maps", "wear depth", WORN, "surface", moving=False)
+MAPS: Final = (PRESSURE, FILM_PRESSURE, WEAR)
+"""Maps of surfaces, on a page and as figures."""
