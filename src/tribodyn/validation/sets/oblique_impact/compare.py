@@ -9,10 +9,10 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.contact.oblique_impact import ImpactingSphere, Rebound, TangentialLaw, rebound
 from tribodyn.core.arrays import FloatArray
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
+from tribodyn.validation.sets.oblique_impact.rebound import ImpactingSphere, Rebound, TangentialLaw, rebound
 from tribodyn.validation.vary import varied
 
 LAWS: Final[tuple[TangentialLaw, ...]] = ("regularised", "compliant")
