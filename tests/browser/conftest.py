@@ -5,8 +5,6 @@ line that says so, except in continuous integration (CI=true), where that is a f
 another one; the system's Firefox, too, which draws with WebGL where there is a display (xvfb-run is one).
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

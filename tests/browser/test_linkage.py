@@ -1,7 +1,5 @@
 """The report of a drawn mechanism in a real browser."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The manual without a network: formulas are drawn, no other origin is asked, no page is too wide."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

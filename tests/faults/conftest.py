@@ -1,7 +1,5 @@
 """Disks of their own, which are full or may not be written to."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator

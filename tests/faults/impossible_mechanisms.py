@@ -5,8 +5,6 @@ locked, have two drives on one freedom, wrong axes, or cannot turn as far as the
 far more than clearances give way.
 """
 
-from __future__ import annotations
-
 import copy
 import math
 from collections.abc import Callable

@@ -4,8 +4,6 @@ Bodies are bars between the points of a random drawing. What moves them, drives,
 is drawn with them. ``SPOILED`` makes mechanisms wrong or extreme on purpose.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

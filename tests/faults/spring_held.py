@@ -4,8 +4,6 @@ A base is driven along x or about z. On it hangs a chain of levers on torsion sp
 end of the chain is a joint of a second arm on the ground. Springs between points, loads and weights act, too.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Bad input: exit status 2, one clear message on stderr, nothing written, no traceback."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """Scans that cannot be measured: one clear message each, which names the file and what to change."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

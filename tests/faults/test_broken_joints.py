@@ -1,7 +1,5 @@
 """Runs in which the model of a joint no longer holds stop, with the time and the joint in the message."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

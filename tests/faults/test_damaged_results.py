@@ -1,7 +1,5 @@
 """Result files with damage anywhere: the numbers that were written, or one error in words, never a crash."""
 
-from __future__ import annotations
-
 import json
 import random
 import subprocess

@@ -4,8 +4,6 @@ Nothing here runs on another system. A hook (``elsewhere/sitecustomize.py``) tak
 not have, in the command and in the processes that it starts.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

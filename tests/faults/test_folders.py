@@ -1,7 +1,5 @@
 """Folders that may not be written to, by any command that would: refused in a sentence, left as they are."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

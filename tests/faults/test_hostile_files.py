@@ -1,7 +1,5 @@
 """Files made to harm whoever reads them: endless, huge, deep, or of another kind than their name says."""
 
-from __future__ import annotations
-
 import difflib
 import json
 import os

@@ -1,7 +1,5 @@
 """Right-hand sides, mass matrices and options drawn at random, most of them wrong: a sentence each."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

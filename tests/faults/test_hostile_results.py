@@ -1,7 +1,5 @@
 """Results from strangers whose every text is markup: no page takes any of it for its own."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

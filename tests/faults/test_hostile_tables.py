@@ -1,7 +1,5 @@
 """Files of strokes, loads and forms that are damaged: a case loads or is refused in words, nothing else."""
 
-from __future__ import annotations
-
 import os
 import random
 import warnings

@@ -1,7 +1,5 @@
 """A workbench that is told nonsense and lies: by its own page, and by who is nobody."""
 
-from __future__ import annotations
-
 import asyncio
 import importlib
 import json

@@ -1,7 +1,5 @@
 """Random mechanisms of which half cannot be: those are refused, the others run with reasonable forces."""
 
-from __future__ import annotations
-
 import math
 import sys
 import time

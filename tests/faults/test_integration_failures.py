@@ -1,7 +1,5 @@
 """Runs that cannot reach their end: every solver says why and keeps what it has."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

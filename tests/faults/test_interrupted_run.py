@@ -1,7 +1,5 @@
 """A real run that is told to stop: what was computed is saved, status 1, and it reads back."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Journals that cannot be: refused with a clear message, or stopped with nothing lost."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import replace

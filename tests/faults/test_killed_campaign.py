@@ -1,7 +1,5 @@
 """A wear campaign whose process is killed at random moments ends as one that was left alone, to the bit."""
 
-from __future__ import annotations
-
 import json
 import random
 import resource

@@ -1,7 +1,5 @@
 """Real runs that are killed, have no room left, meet each other, or whose results are damaged afterwards."""
 
-from __future__ import annotations
-
 import json
 import os
 import random

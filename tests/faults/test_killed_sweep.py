@@ -1,7 +1,5 @@
 """Sweeps of real processes whose workers are killed, which are killed themselves, or told to stop."""
 
-from __future__ import annotations
-
 import json
 import os
 import random

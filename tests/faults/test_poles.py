@@ -1,7 +1,5 @@
 """Solutions with a pole: success beyond it only where an error of the tolerance moves the pole there."""
 
-from __future__ import annotations
-
 import itertools
 
 import pytest

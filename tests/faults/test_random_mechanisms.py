@@ -4,8 +4,6 @@ What a run says of itself, balances and residuals, is not taken for granted: joi
 the motion of the bodies, and every body that nothing but joints and weight acts on obeys Newton's law.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from typing import Any

@@ -6,8 +6,6 @@ paper's, which changes nothing in kind and shortens the smooth stretches, so tha
 its impacts in about a second of computing. All contacts are damped, as real ones are, but in one test.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import time

@@ -1,7 +1,5 @@
 """Mechanisms that cannot be: one change to a slider-crank each, and the message that its designer reads."""
 
-from __future__ import annotations
-
 import re
 import time
 import tomllib

@@ -1,7 +1,5 @@
 """Files from strangers: they are data, nothing in them runs, and nothing they say leaves the folder named."""
 
-from __future__ import annotations
-
 import ast
 import json
 import pickle

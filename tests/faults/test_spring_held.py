@@ -1,7 +1,5 @@
 """Static equilibria of random mechanisms whose freedoms springs hold are those of least potential energy."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

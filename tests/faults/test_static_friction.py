@@ -4,8 +4,6 @@ Slider-cranks of random size slide in three joints under stated loads. By virtua
 turning forward is above that turning back by twice the sum of friction forces times sliding distances.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Texts of strangers in terminals and pages, files of other programs, and types that no result has."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

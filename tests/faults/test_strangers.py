@@ -1,7 +1,5 @@
 """Another user of the machine tries to talk to a sweep that runs."""
 
-from __future__ import annotations
-
 import os
 import re
 import stat

@@ -1,7 +1,5 @@
 """Closed streams, full logs, hang-ups, unlimited files, and tables of measurements that are none."""
 
-from __future__ import annotations
-
 import json
 import os
 import resource

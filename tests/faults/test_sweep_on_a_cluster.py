@@ -1,7 +1,5 @@
 """A sweep on a Dask scheduler and workers that were started on their own and are known by an address."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -4,8 +4,6 @@ Each has a known smooth solution, states of their own dynamics and one constrain
 (Hessenberg form). A wrong `index` must be refused, warned of, or harmless; the right one must be accepted.
 """
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

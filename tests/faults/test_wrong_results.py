@@ -4,8 +4,6 @@ Each mutation changes one thing about one variable or attribute of a real result
 runs in a process of its own, which is watched.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -5,8 +5,6 @@ imports once what a command needs, reads command lines as JSON, one a line, fork
 what came of it.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import io

@@ -1,7 +1,5 @@
 """Cases: from TOML text with units to frozen, validated objects in SI units, and back."""
 
-from __future__ import annotations
-
 from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key, keys_of
 from tribodyn.cases.tables import keys_in

@@ -1,7 +1,5 @@
 """Values beyond the ends of a table that a case follows: it repeats, or its first and last value hold."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 One file because groups, building and changed copies are one protocol that calls itself in a circle.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping

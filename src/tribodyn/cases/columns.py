@@ -17,8 +17,6 @@ stand for the names of columns::
     250, 1.4, 1.1
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Quantities with dimensions: what expressions of a case compute with."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from fractions import Fraction

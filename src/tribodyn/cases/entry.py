@@ -1,7 +1,5 @@
 """One value as a user wrote it, and how it is read."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

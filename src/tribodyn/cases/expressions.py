@@ -5,8 +5,6 @@ the operations and the functions listed here has a meaning, and nothing is ever 
 through every operation; what they do not allow is refused.
 """
 
-from __future__ import annotations
-
 import ast
 import math
 import re

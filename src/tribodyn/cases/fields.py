@@ -3,8 +3,6 @@
 The helpers below make pydantic fields; :func:`tribodyn.cases.keys.keys_of` collects what they record.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, TypeAlias, TypedDict, Unpack
 

@@ -3,8 +3,6 @@
 What pint makes of each is the same; a test compares them all.
 """
 
-from __future__ import annotations
-
 import re
 from typing import Final
 

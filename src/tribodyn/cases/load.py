@@ -1,7 +1,5 @@
 """Reading cases: by built-in name, from a TOML file, from TOML text."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence

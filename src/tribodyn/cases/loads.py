@@ -5,8 +5,6 @@ number, a sinusoid, a table over time, an angle, a position or a speed, or a map
 says whether it is fixed in space, fixed in the body (follower), or opposes the motion.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@ the temperature, go before it. Keys that the library does not have keep
 their defaults; both are reported.
 """
 
-from __future__ import annotations
-
 import math
 import tomllib
 from bisect import bisect_left

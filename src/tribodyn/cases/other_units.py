@@ -1,7 +1,5 @@
 """Units that few cases are written in, as pint knows them."""
 
-from __future__ import annotations
-
 from decimal import Decimal
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Parameters of a case: numbers with names of their own, which its other values may be computed from."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final

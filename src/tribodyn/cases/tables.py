@@ -4,8 +4,6 @@ Such a field is declared with :func:`tribodyn.cases.fields.tables`. Its keys are
 ``joints.*.clearance`` before there is a case, and as ``joints.crankpin.clearance`` in one.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """From a case to TOML text, plain or commented, to a table for notebooks, and to its choices."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from html import escape

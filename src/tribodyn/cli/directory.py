@@ -1,7 +1,5 @@
 """The directory that results go to: checked before anything is computed."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 from collections.abc import Iterator

@@ -3,8 +3,6 @@
 The file holds all that was printed, too, a line each, after its time.
 """
 
-from __future__ import annotations
-
 import logging
 import platform
 import shlex

@@ -5,8 +5,6 @@ with the line of the source that gives it, and ``compare.py``, which computes wh
 downloaded.
 """
 
-from __future__ import annotations
-
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot, Verdict
 from tribodyn.validation.catalogue import NAMES, ValidationSet, load
 

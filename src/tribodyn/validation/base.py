@@ -1,7 +1,5 @@
 """Result of a validation set: numbers with uncertainties and verdicts, and curves for its plot."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The list of validation sets, and what the files of a set hold."""
 
-from __future__ import annotations
-
 import csv
 import importlib
 import tomllib

@@ -7,8 +7,6 @@ since 2026-11-26 state how the value is read, the level of the interval with bot
 its interval, and what would refute them.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 import tomllib

@@ -1,7 +1,5 @@
 """Results of validation sets as text, JSON and Markdown pages."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping

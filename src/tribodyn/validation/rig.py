@@ -15,8 +15,6 @@ of the range of the measured curve::
     acceleration.slider.x,run.csv,50,5 %,,"bench log, run 3",
 """
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import math

@@ -1,7 +1,5 @@
 """Files of validation results: a page and a plot for each set, and all numbers as JSON."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from itertools import count

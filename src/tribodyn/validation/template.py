@@ -1,7 +1,5 @@
 """Files of a new set of a user's own measurements, to be filled in."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Final
 

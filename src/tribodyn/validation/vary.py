@@ -1,7 +1,5 @@
 """Uncertainty of computed values: assumed inputs varied to both ends of their bands, one at a time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ Another user of the machine can send anything but has neither token nor cookie. 
 there, it gives no access without the secret of the page.
 """
 
-from __future__ import annotations
-
 import hashlib
 import secrets
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Controls of a case: one a key, the most important ones first."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """Estimate of the processor time of a run from earlier runs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Description of a case for a page: its controls, key results and charts, and its editable tables."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Models edited on a page: a template or the case of the workbench, with tables added and removed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fnmatch import fnmatchcase

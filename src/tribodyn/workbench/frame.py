@@ -5,8 +5,6 @@ header and flags, each an unsigned integer of 32 bits, little-endian as all of i
 can be kept and sent again.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Mapping

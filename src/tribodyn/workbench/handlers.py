@@ -1,7 +1,5 @@
 """Handlers of requests that have passed access control: the page, its assets, downloads and the socket."""
 
-from __future__ import annotations
-
 import asyncio
 import traceback
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Messages from a page: their kinds and fields."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

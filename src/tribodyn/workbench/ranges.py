@@ -1,7 +1,5 @@
 """Range of a slider: both ends and the steps, all of them round numbers."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """Background runs along one key: a sweep, and the slope at a value."""
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress

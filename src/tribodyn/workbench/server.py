@@ -1,7 +1,5 @@
 """Server of one user on this machine."""
 
-from __future__ import annotations
-
 import asyncio
 import errno
 import logging

@@ -1,7 +1,5 @@
 """Worker pool of the server: runs that a person waits for come first, then the order of requests."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 from collections import deque

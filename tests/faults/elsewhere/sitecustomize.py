@@ -4,8 +4,6 @@ The variable ``ELSEWHERE`` says which: ``win32`` or ``darwin``. What Windows lac
 cannot be opened, and nothing takes the name of an open file or removes one.
 """
 
-from __future__ import annotations
-
 import builtins
 import fcntl
 import os

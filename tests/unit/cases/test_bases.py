@@ -1,7 +1,5 @@
 """Case files that begin with another case file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

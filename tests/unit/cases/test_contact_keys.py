@@ -1,7 +1,5 @@
 """What the table ``[contact]`` makes of laws, damping factors and restitutions."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """Drives and loads as Python functions: what tables they make, and which are refused."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Literal
 

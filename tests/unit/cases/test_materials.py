@@ -1,7 +1,5 @@
 """The library of materials, and what a case takes from it."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Parameters and expressions: values, units, links that changes follow, and refusals."""
 
-from __future__ import annotations
-
 import time
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Scans of surfaces in cases: read once, relative to the case file, and replaced by their numbers."""
 
-from __future__ import annotations
-
 import pickle
 from pathlib import Path
 

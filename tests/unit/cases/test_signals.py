@@ -1,7 +1,5 @@
 """Tables of a case that follow time: formulas, CSV files, what is refused, and dotted paths into them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Tables that a user names: read, written, changed, swept and documented by dotted paths like all others."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 from collections.abc import Mapping

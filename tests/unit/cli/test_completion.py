@@ -1,7 +1,5 @@
 """What a shell is offered, and the log of a command."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

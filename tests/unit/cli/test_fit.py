@@ -1,7 +1,5 @@
 """``tribodyn fit`` from data to the fitted case."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """``tribodyn run`` and ``report`` around a simulation that is made up."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

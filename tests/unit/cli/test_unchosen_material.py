@@ -1,7 +1,5 @@
 """Nobody chose a material: one note in check, run, report and summary; wear rates and lives are grey."""
 
-from __future__ import annotations
-
 import json
 import re
 import sys

@@ -1,7 +1,5 @@
 """``tribodyn validate``: sets of the package, and a user's own numbers by the same rules."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

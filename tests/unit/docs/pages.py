@@ -1,7 +1,5 @@
 """Numbers in the prose of a page: what is left once code, formulas, roles and links are removed."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Final

@@ -1,7 +1,5 @@
 """Docstrings of public functions and methods: parameters, what is returned, and what is raised."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import re

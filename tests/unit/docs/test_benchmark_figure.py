@@ -1,7 +1,5 @@
 """The figure of the page on performance is made from stored measurements."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Pages of the manual are complete as files: tables of the program and measured numbers stand in them."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import re

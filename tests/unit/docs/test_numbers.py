@@ -1,7 +1,5 @@
 """Numbers on pages: each is measured by the build, or listed with what else holds it."""
 
-from __future__ import annotations
-
 import importlib.util
 import re
 import sys

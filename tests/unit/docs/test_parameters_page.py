@@ -1,7 +1,5 @@
 """The page on parameters: its model is a case, and its commands answer as shown."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Commands that README and manual show with their answers print these."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

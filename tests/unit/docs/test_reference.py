@@ -1,7 +1,5 @@
 """The reference shows every part of the package, so that whatever is public is found there."""
 
-from __future__ import annotations
-
 import importlib.util
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The page on warnings names the thresholds that are built in, and every attribute it points to is stored."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every tutorial, and every guide with code to run, runs as it stands in the manual."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

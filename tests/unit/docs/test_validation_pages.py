@@ -1,7 +1,5 @@
 """The pages on validation name tests and sets that exist."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

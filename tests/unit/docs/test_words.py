@@ -1,7 +1,5 @@
 """Texts for users hold no word of the list: manual, keys, key results, messages, report, workbench."""
 
-from __future__ import annotations
-
 import re
 import sys
 import tomllib

@@ -1,7 +1,5 @@
 """CVODE under the rules of a method."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

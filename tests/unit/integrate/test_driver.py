@@ -1,7 +1,5 @@
 """The order in which the driver calls the functions of a problem, with a method of known steps."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Rows at accepted steps where a problem asks for them: the same in every walk, thinned with their peaks."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The entry point and the list of solvers."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """How compiled code lets its caller look around: by the clock, and without a trace in the results."""
 
-from __future__ import annotations
-
 import json
 import threading
 import time

@@ -1,7 +1,5 @@
 """Runs that step without getting anywhere end; runs that are slow, or have a hard stretch, go on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

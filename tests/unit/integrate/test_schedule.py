@@ -1,7 +1,5 @@
 """The marks of an integration in time."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """SciPy's solver classes under the rules of a method."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.integrate

@@ -1,7 +1,5 @@
 """Data, inputs and acceptance bands equal those of the collection, and every number has its line."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 from importlib.resources import files

@@ -1,7 +1,5 @@
 """What the sets return: every miss explained, numbers finite, pages complete."""
 
-from __future__ import annotations
-
 import json
 from functools import cache
 

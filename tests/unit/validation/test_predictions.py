@@ -1,7 +1,5 @@
 """The register of predictions: complete, and equal to what the package computes from the same inputs."""
 
-from __future__ import annotations
-
 import datetime
 import hashlib
 from importlib.resources import files

@@ -1,7 +1,5 @@
 """Verdicts, uncertainties and E by their definitions."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

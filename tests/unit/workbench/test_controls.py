@@ -1,7 +1,5 @@
 """Controls of every built-in case, and where their sliders go."""
 
-from __future__ import annotations
-
 import pytest
 
 import tribodyn as td

@@ -1,7 +1,5 @@
 """Models edited on a page: what can be added and removed, and the same messages as for a case file."""
 
-from __future__ import annotations
-
 import pytest
 
 from tribodyn.cases.case import Case

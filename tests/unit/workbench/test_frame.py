@@ -1,7 +1,5 @@
 """Frames, and the runs that are kept."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.unit.workbench.host import unframed

@@ -1,7 +1,5 @@
 """What is kept of pictures takes hardly more memory than they do, however many there were."""
 
-from __future__ import annotations
-
 import platform
 import subprocess
 import sys

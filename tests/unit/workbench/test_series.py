@@ -1,7 +1,5 @@
 """Slopes of key results over five points."""
 
-from __future__ import annotations
-
 import pytest
 
 from tribodyn.workbench.series import AROUND, slopes

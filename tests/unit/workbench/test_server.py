@@ -1,7 +1,5 @@
 """Access control and the routes behind it, over real connections."""
 
-from __future__ import annotations
-
 import asyncio
 import itertools
 import json

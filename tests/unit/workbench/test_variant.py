@@ -1,7 +1,5 @@
 """What is said of a case that the page changed: enough to make it again to the bit."""
 
-from __future__ import annotations
-
 import difflib
 import shlex
 

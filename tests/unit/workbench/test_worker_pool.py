@@ -1,7 +1,5 @@
 """Workers that are real processes: what becomes of a run when its worker dies, hangs, or takes too much."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import signal

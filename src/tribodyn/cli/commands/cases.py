@@ -1,7 +1,5 @@
 """``tribodyn cases``: list the built-in cases."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 
 from tribodyn.cli.console import show_json

@@ -1,7 +1,5 @@
 """``tribodyn export``: write columns of a stored result as a table for spreadsheets and other programs."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``tribodyn materials``: what the library of materials knows, and where it stands."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 

@@ -1,7 +1,5 @@
 """``tribodyn new``: write a case file to start from."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 

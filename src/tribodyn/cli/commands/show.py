@@ -1,7 +1,5 @@
 """``tribodyn show``: print the whole resolved case, or all keys of a kind of case, as commented TOML."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``tribodyn stribeck``: friction of a shaft in oil over its speed."""
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 

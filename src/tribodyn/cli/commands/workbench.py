@@ -1,7 +1,5 @@
 """``tribodyn workbench``: a page on this machine that runs a case while its values are turned."""
 
-from __future__ import annotations
-
 import sys
 import threading
 from argparse import ArgumentParser, Namespace

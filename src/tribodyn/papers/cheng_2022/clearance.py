@@ -1,7 +1,5 @@
 """Figures 16, 17 and 18: what the size of the clearance changes."""
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Final
 

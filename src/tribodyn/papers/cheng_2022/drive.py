@@ -1,7 +1,5 @@
 """Figures 10 and 11: what the crank does and how the vane follows, without clearance."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The figures of the paper from our own runs, listed once, and how they and the claims are written."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Final

@@ -1,7 +1,5 @@
 """Numbers of the impacts after the reversals."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

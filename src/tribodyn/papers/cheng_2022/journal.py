@@ -1,7 +1,5 @@
 """Figures 8 and 9: the journal of section 4 under a steady load, dry and in oil, with both laws."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import xarray as xr

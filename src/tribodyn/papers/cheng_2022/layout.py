@@ -1,7 +1,5 @@
 """Common parts of the reproduced figures: panels, enlarged stretches, colours of the clearances."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figure 15: contact pressure at three vane angles in both directions, in static equilibrium."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

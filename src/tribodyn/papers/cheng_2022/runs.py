@@ -1,7 +1,5 @@
 """The runs that figures and claims share, each computed once, and what a figure made of them is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Final

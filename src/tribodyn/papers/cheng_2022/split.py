@@ -1,7 +1,5 @@
 """The error of the vane with clearance in every joint, split by joint: the paper's factor seven."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

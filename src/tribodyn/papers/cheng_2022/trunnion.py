@@ -1,7 +1,5 @@
 """Figures 12, 13 and 14: forces, path and velocities of the trunnion at 20 µm."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The mechanism without damping: the paper's first conclusion, in both formulations, with both frictions."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from itertools import product

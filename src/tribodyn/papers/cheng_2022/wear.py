@@ -1,7 +1,5 @@
 """Figure 19: wear depth after 100 to 400 cycles with five clearances."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

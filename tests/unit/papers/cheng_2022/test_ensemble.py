@@ -1,7 +1,5 @@
 """The ensemble on which verdicts stand: its members, what they make of a claim, and the kept file."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections import Counter

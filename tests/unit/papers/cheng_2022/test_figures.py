@@ -1,7 +1,5 @@
 """Every figure and every claim of the paper, on coarse grids with two clearances."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """What claims measure, on motions of which it is known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """Every claim of the paper that can be measured, and the table that judges them."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.papers.cheng_2022.claims import (

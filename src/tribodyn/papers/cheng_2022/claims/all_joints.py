@@ -4,8 +4,6 @@ The paper multiplies the error of one joint by seven. Here every joint has its c
 the built-in case ``vsv-joints``; the ideal mechanism is the same one without any.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from functools import partial
 from typing import Final

@@ -1,7 +1,5 @@
 """Claims on the vane and on the motion of the trunnion at 20 µm: sections 5.1 and 5.2, Figs. 11, 13, 14."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Final

@@ -1,7 +1,5 @@
 """Types of a claim: its sentences in the paper, its measure and its trials."""
 
-from __future__ import annotations
-
 import inspect
 import tomllib
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Claims on what causes what, sections 5.2 and 5.3: without a load the effect is measured again."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

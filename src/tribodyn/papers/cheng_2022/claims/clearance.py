@@ -1,7 +1,5 @@
 """Claims on what the size of the clearance does to forces and attitude: section 5.3, Figs. 17 and 18."""
 
-from __future__ import annotations
-
 from itertools import combinations
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Claims on what damping does for the mechanism: abstract, sections 2.1 and 5.3, conclusion (2)."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -5,8 +5,6 @@ equally often. The time left out after a reversal and our bounds need no runs an
 numbers found are kept in ``ensemble.json``, which ``tribodyn reproduce ensemble`` makes.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter

@@ -1,7 +1,5 @@
 """Claims on the error of the vane: section 5.3, Fig. 16."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Claims on the forces at the trunnion at 20 µm: section 5.2, Fig. 12."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Claims on the journal of section 4, dry and in oil."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Final
 

@@ -1,7 +1,5 @@
 """The numbers of the ensemble: every claim measured on every member, a piece of work a member."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed

@@ -1,7 +1,5 @@
 """Claims on the equations and their solution: sections 1, 2.2, 2.3 and 3."""
 
-from __future__ import annotations
-
 import json
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Claims on where the trunnion bears at 20 µm: section 5.2, Fig. 15."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Final
 

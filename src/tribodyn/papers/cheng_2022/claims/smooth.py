@@ -1,7 +1,5 @@
 """Remaining error in smooth motion."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

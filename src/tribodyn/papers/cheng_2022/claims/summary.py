@@ -1,7 +1,5 @@
 """Counts of claims and sentences by verdict."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """The table: what the paper says, what we find, and the verdict."""
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """Claims on the mechanism without damping: the abstract, section 1 and conclusion (1)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from typing import Final

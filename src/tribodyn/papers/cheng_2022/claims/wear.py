@@ -1,7 +1,5 @@
 """Claims on wear: section 5.3, Fig. 19."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Final
 

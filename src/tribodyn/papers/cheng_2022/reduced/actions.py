@@ -1,7 +1,5 @@
 """Drives and loads of the vane mechanism beside the loads of the paper: keys and cross-checks."""
 
-from __future__ import annotations
-
 import itertools
 from typing import ClassVar, Final, Literal
 

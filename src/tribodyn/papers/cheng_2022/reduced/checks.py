@@ -1,7 +1,5 @@
 """Self-checks of a run of the vane mechanism, in plain words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final

@@ -1,7 +1,5 @@
 """The variable stator vane mechanism as the rest of the program sees it."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn

@@ -8,8 +8,6 @@ energy stored in the contact is put in; what it does against damping pressures a
 in neither column.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

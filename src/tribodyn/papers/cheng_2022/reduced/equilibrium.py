@@ -4,8 +4,6 @@ The attitude at which the generalised loads balance with the clearance motion at
 while crank, ring and vane move as the ideal mechanism does at that time.
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import Final

@@ -1,7 +1,5 @@
 """Key results of the vane mechanism."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Outputs of the vane mechanism: its vane, compared with that of a mechanism without clearance."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final, Literal
 

@@ -1,7 +1,5 @@
 """Places of the mechanism's bodies, in the millimetres of pictures."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Range of the mechanism: the vane angle of the ideal mechanism over the crank angle."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import Final

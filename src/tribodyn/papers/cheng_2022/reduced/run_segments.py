@@ -1,7 +1,5 @@
 """Instants at which an integration restarts: reversals of the vane and kinks of tables."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache

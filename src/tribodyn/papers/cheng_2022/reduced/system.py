@@ -1,7 +1,5 @@
 """A case of the variable stator vane mechanism as a system to integrate, and what its runs return."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

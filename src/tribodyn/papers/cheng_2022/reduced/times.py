@@ -1,7 +1,5 @@
 """Times at which a run keeps rows and pictures."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import Final

@@ -1,7 +1,5 @@
 """Amount of work and memory of a run of the variable stator vane mechanism."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.kernels.joints.quantities import STATES

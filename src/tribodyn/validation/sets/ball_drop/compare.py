@@ -1,7 +1,5 @@
 """Restitution returned by damping factors against the restitution requested."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final

@@ -1,7 +1,5 @@
 """Inputs of the package against ranges of dry bearing liners."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Final, cast
 

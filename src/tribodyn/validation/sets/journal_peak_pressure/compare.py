@@ -1,7 +1,5 @@
 """Peak film pressure of the rig, from the equilibrium of a journal in oil."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final, cast

@@ -1,7 +1,5 @@
 """Shape of a Stribeck curve in mixed friction."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final, cast

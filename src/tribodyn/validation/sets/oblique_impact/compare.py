@@ -1,7 +1,5 @@
 """Tangential restitution of an oblique impact, with and without tangential compliance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from functools import partial

@@ -1,7 +1,5 @@
 """Sign and order of published effects: torque, wear and impacts over clearance, cycles and speed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final, cast

@@ -1,7 +1,5 @@
 """Root mean square difference of a fitted Stribeck law from the friction force of a rack and pinion."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Final

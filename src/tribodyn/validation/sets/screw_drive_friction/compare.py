@@ -1,7 +1,5 @@
 """Largest difference of fitted friction laws from the measured torque of screw drives."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Friction laws of a screw drive over speed, and their fits."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Final
 

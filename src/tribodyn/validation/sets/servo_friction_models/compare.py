@@ -1,7 +1,5 @@
 """Torque of the friction library against the published formulas, model by model."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from itertools import product

@@ -1,7 +1,5 @@
 """Fitted friction and droop of a geared servo joint."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Final

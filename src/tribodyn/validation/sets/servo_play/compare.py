@@ -1,7 +1,5 @@
 """Play and compliance of a servo joint, fitted to its deviation with and without load."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Pull force of an actuation ring, and torque of a bush over a wear campaign."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Final, cast
 

@@ -1,7 +1,5 @@
 """Drives of the vane mechanism from tables: where they turn, what they are, and which are refused."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The case of an engine: where its numbers come from, and what its page in the manual says of it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

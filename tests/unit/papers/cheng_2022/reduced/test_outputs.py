@@ -1,7 +1,5 @@
 """Outputs of the vane mechanism have the names and statistics of those of user-defined mechanisms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

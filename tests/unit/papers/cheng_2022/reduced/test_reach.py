@@ -1,7 +1,5 @@
 """One assembly of the mechanism all the way: no jump to the other one, however far the crank turns."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

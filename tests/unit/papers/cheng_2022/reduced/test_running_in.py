@@ -1,7 +1,5 @@
 """A campaign in which the bushing runs in, and one in which both surfaces wear."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

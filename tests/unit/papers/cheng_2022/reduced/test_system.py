@@ -1,7 +1,5 @@
 """The run of the vane mechanism: what its result holds, and a drive that would go too far if it went on."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

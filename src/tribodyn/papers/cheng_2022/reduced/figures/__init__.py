@@ -1,7 +1,5 @@
 """Figures of the vane mechanism, in the order in which one reads them."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear

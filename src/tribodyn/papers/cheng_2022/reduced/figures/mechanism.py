@@ -1,7 +1,5 @@
 """The mechanism at three positions of the vane, seen along the casing axis and from above."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Vane-angle error: what the clearance does to the position of the vane."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

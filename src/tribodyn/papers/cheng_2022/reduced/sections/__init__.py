@@ -1,7 +1,5 @@
 """Content of the vane mechanism's report: its chapters, and the overlays of a comparison."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE

@@ -1,7 +1,5 @@
 """The mechanism in space: where every body is at the frames."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import xarray as xr

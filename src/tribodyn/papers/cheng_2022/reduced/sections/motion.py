@@ -1,7 +1,5 @@
 """Motion of drive and vane, the moment it takes, and the clearance at changing temperatures."""
 
-from __future__ import annotations
-
 import tomllib
 from string import ascii_lowercase
 from typing import Final

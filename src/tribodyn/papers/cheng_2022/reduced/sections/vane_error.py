@@ -1,7 +1,5 @@
 """Vane-angle error over time and over the position of the vane."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np
