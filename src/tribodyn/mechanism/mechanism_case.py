@@ -147,6 +147,13 @@ class MechanismCase(_WithElements):
 
         return self.model_copy(update={"joints": {name: coarse(one) for name, one in self.joints.items()}})
 
+    @property
+    def oiled(self) -> list[str]:
+        """Names of the joints with an oil film."""
+        return [
+            name for name, joint in self.joints.items() if joint.real is not None and joint.film is not None
+        ]
+
     def of_pair(self, clearance: ClearanceKeys) -> PairKeys | Self:
         """Return surfaces, contact law, friction and wear of a joint: its pair, or those of the case."""
         return self if clearance.pair is None else self.pairs[clearance.pair]

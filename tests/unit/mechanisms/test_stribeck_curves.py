@@ -5,6 +5,8 @@ import pytest
 import tribodyn as td
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import parse_case
+from tribodyn.presets.journal.model import mechanism_of
 
 OIL = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
 
@@ -17,6 +19,19 @@ def test_a_curve_for_each_viscosity() -> None:
     assert (curves["film_share"].diff("viscosity") > 0.0).all()
     shares = curves["film_share"] + curves["contact_share"]
     assert shares.values == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_joint_of_a_mechanism_has_that_of_the_journal_it_is() -> None:
+    journal = OIL.replace({"loads.force_y": "0 N"})
+    mechanism = parse_case(mechanism_of(journal).to_toml(), "model")
+    given = {"joint": "bearing", "load": "200 N", "viscosity": ["5 mPa s"]}
+    found = td.stribeck(mechanism, [30.0], **given)
+    assert found["friction_coefficient"].equals(
+        td.stribeck(journal, [30.0], viscosity=["5 mPa s"])["friction_coefficient"]
+    )
+    for wrong, words in (({"joint": "crank"}, "bearing"), ({"load": None}, "needs a load")):
+        with pytest.raises(InputError, match=words):
+            td.stribeck(mechanism, [30.0], **{**given, **wrong})
 
 
 @pytest.mark.parametrize(

@@ -24,6 +24,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--speed", metavar="A..B", default="1..1000rad/s", help="range of speeds (default: %(default)s)"
     )
     parser.add_argument("--points", metavar="N", type=int, default=10, help="speeds (default: %(default)s)")
+    parser.add_argument("--joint", metavar="NAME", default="", help="of a mechanism, its joint in oil")
+    parser.add_argument("--load", metavar="FORCE", help="of a mechanism, the load on that joint: 200N")
     parser.add_argument("-o", "--output", metavar="FILE", help="write the curves as NetCDF, too")
 
 
@@ -35,7 +37,8 @@ def execute(args: Namespace) -> int:
     speeds = np.geomspace(*_ends(args.speed), max(2, args.points))
     import tribodyn
 
-    curves = tribodyn.stribeck(case, speeds, viscosity=_listed(args.viscosity))
+    viscosity = _listed(args.viscosity)
+    curves = tribodyn.stribeck(case, speeds, viscosity=viscosity, joint=args.joint, load=args.load)
     for place, viscosity in enumerate(curves.attrs["viscosity"]):
         console.say(f"viscosity {viscosity}")
         console.say(f"  {'speed [rad/s]':>14}{'friction':>12}{'film':>9}{'asperities':>12}")

@@ -131,12 +131,8 @@ def kept(case: MechanismCase) -> tuple[str, ...]:
 
 def not_kept(case: MechanismCase) -> list[str]:
     """Return those that they do not hold."""
-    there = {*kept(case), *(() if _has_films(case) else OIL)}
+    there = {*kept(case), *(() if case.oiled else OIL)}
     return [name for name in (*BODIES, *JOINTS) if name not in there]
-
-
-def _has_films(case: MechanismCase) -> bool:
-    return any(joint.real is not None and joint.film is not None for joint in case.joints.values())
 
 
 def note(case: MechanismCase) -> list[str]:
@@ -231,7 +227,7 @@ def layout_of(case: MechanismCase) -> Layout:
     counts = len(case.bodies), len(case.joints), len(case.springs) + len(case.loads) + n_legs
     if not not_kept(case):
         return Layout(*counts, BODY, COUPLING, COUPLING)
-    chosen = {*kept(case)} - {*(() if _has_films(case) else OIL)}
+    chosen = {*kept(case)} - {*(() if case.oiled else OIL)}
     others = {*_opposed(case), *(_OF_LEGS if n_legs else ()), *(["joint_work"] if case.loads else [])}
     joints = chosen | {*_read_of_joints(case)} | others
     return Layout(
@@ -253,7 +249,7 @@ def _read_of_joints(case: MechanismCase) -> Iterator[str]:
     real = [joint.real for joint in case.joints.values() if joint.real is not None]
     yield from _OF_CLEARANCES if real else ()
     yield from _OF_FLASH if any(has_conductors(case.of_pair(keys).surfaces) for keys in real) else ()
-    yield from ("film_pressure_max",) if _has_films(case) else ()
+    yield from ("film_pressure_max",) if case.oiled else ()
     yield from (OBSERVED[table.over] for table in case.followed() if table.follows)
     yield from (OBSERVED[f"{at.kind}s"] for at in instants_of(case.outputs) if at.kind != "time")
     if case.outputs and case.run.analysis == "kinematic":

@@ -13,8 +13,10 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.joints import BushingJoint
+from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.bushing import new_memory
+from tribodyn.joints.clearances import Clearance
+from tribodyn.joints.shapes import Cylinder
 from tribodyn.kernels import dense
 from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
 from tribodyn.kernels.joints.bushing import report, wrench_and_jacobian
@@ -101,6 +103,34 @@ class Journal:
     def freedoms(self) -> int:
         """Number of degrees of freedom: 2, with tilt 4."""
         return 4 if self.tilts else 2
+
+
+def journal_in(
+    real: Clearance, *, loads: Loads, speed: float = 0.0, tilts: bool = False, changes: bool = False
+) -> Journal:
+    """Return the journal in a bore of any mechanism, at the temperatures of its run.
+
+    Parameters
+    ----------
+    real
+        Its clearance, of a shaft in a bore; end faces are left out.
+    loads, speed, tilts, changes
+        As those of :class:`Journal`.
+    """
+    shape = real.shape
+    assert isinstance(shape, Cylinder)
+    joint = BushingJoint(
+        geometry=BushingGeometry(shape.clearance, shape.radius, shape.overlap),
+        friction=Friction(real.friction_coefficient, "traction", real.slip_velocity),
+        entry=EntryMemory(real.onset, real.minimum_velocity, real.tensile_clip),
+        grid=Grid(*real.grid),
+        roughness=real.roughness,
+        table=real.table,
+        contact=real.contact,
+        liner=real.liner,
+        form=shape.form,
+    )
+    return Journal(tilts, speed, loads, joint, real.film, changes)
 
 
 @dataclass(frozen=True)

@@ -6,21 +6,23 @@ with speed as its shear does. In between, in mixed lubrication, friction is leas
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Final
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Final, cast
 
 import numpy as np
 import xarray as xr
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.units import from_si
+from tribodyn.cases.units import from_si, to_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
+from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, equilibrium
+from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, Loads, equilibrium, journal_in
 from tribodyn.presets.journal.system import journal_of
 
-VISCOSITY: Final = "film.viscosity"
 _SPEEDS: Final = np.geomspace(1.0, 1000.0, 31)
 _COLUMNS: Final = {
     "friction_coefficient": ("1", "friction moment over radius and load"),
@@ -57,18 +59,28 @@ def equilibria(journal: Journal, speeds: Iterable[float]) -> list[Equilibrium]:
 
 
 def stribeck(
-    case: Case, speeds: Iterable[float] | None = None, *, viscosity: Sequence[object] = ()
+    case: Case,
+    speeds: Iterable[float] | None = None,
+    *,
+    viscosity: Sequence[object] = (),
+    joint: str = "",
+    load: float | str | None = None,
 ) -> xr.Dataset:
-    """Return the friction of a loaded journal in oil over its speed, and who carries the load.
+    """Return the friction of a loaded shaft in oil over its speed, and who carries the load.
 
     Parameters
     ----------
     case
-        A lubricated journal with friction: ``journal-oil`` with a ``joint.friction_coefficient``.
+        A lubricated journal with friction, ``journal-oil`` with a ``joint.friction_coefficient``; or a
+        mechanism with an oil film in a joint that has friction.
     speeds
         Speeds of rotation [rad/s], neighbours near each other; by default 31 from 1 to 1000.
     viscosity
         Viscosities to draw a curve for, as a case file has them; by default that of the case.
+    joint
+        Of a mechanism with several oil films, the joint.
+    load
+        Of a mechanism, the load across the axis of the joint [N], or a text with its unit.
 
     Returns
     -------
@@ -81,18 +93,13 @@ def stribeck(
     InputError
         The case has no film, no friction or no load, or there is no equilibrium at one of the speeds.
     """
-    if not isinstance(case, JournalCase) or not case.film.lubricated:
-        raise InputError(
-            "a Stribeck curve needs a journal in oil: journal-oil, or film.lubricated = true", key="case"
-        )
-    if case.joint.friction_coefficient == 0.0:
-        raise InputError(
-            "without friction of the asperities there is no Stribeck curve: give one, such as 0.1",
-            key="joint.friction_coefficient",
-        )
+    film, friction, journal = _shaft(case, joint, load)
+    if case.at(friction) == 0.0:
+        words = "without friction of the asperities there is no Stribeck curve: give one, such as 0.1"
+        raise InputError(words, key=friction)
     places: FloatArray = _SPEEDS if speeds is None else np.array(list(speeds), dtype=np.float64)
-    cases = [case.replace({VISCOSITY: value}) for value in viscosity] or [case]
-    curves = [equilibria(journal_of(one), places) for one in cases]
+    cases = [case.replace({f"{film}.viscosity": value}) for value in viscosity] or [case]
+    curves = [equilibria(journal(one), places) for one in cases]
     columns = {
         name: (
             ("viscosity", "speed"),
@@ -101,10 +108,30 @@ def stribeck(
         )
         for name, (unit, words) in _COLUMNS.items()
     }
-    viscosities = [one.film.viscosity for one in cases]
+    viscosities = [float(cast(float, one.at(f"{film}.viscosity"))) for one in cases]
     coordinates = {
         "speed": ("speed", places, {"units": "rad/s", "long_name": "speed of rotation"}),
         "viscosity": ("viscosity", viscosities, {"units": "Pa s", "long_name": "viscosity"}),
     }
     names = [from_si(value, "mPa s") for value in viscosities]
     return xr.Dataset(columns, coordinates, {"title": f"{case.title}: Stribeck curve", "viscosity": names})
+
+
+def _shaft(case: Any, joint: str, load: float | str | None) -> tuple[str, str, Callable[[Any], Journal]]:
+    """Return the keys of film and friction of a shaft in oil, and the function that makes it from a case."""
+    if isinstance(case, JournalCase) and case.film.lubricated:
+        return "film", "joint.friction_coefficient", journal_of
+    oiled = case.oiled if isinstance(case, MechanismCase) else []
+    if not oiled:
+        words = "a Stribeck curve needs a shaft in oil: journal-oil, or a joint with a film"
+        raise InputError(words, key="case")
+    if joint not in oiled and (joint or len(oiled) > 1):
+        raise InputError(f"given {as_given(joint)}; joints with a film: {', '.join(oiled)}", key="joint")
+    if load is None:
+        raise InputError('a Stribeck curve of a mechanism needs a load, such as "200 N"', key="load")
+    name, size = joint or oiled[0], load if isinstance(load, float | int) else to_si(load, "N")
+
+    def made(one: MechanismCase) -> Journal:
+        return journal_in(model_of(one).clearances[name], loads=Loads(size, 0.0))
+
+    return f"joints.{name}.film", f"joints.{name}.clearance.friction_coefficient", made

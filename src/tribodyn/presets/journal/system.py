@@ -13,14 +13,15 @@ from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
+from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.mechanism_variables import observed
 from tribodyn.mechanism.system import MechanismSystem
-from tribodyn.mechanisms.bushing import bushing_facts, bushing_of
+from tribodyn.mechanisms.bushing import bushing_facts
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, Loads, equilibrium
-from tribodyn.presets.journal.model import mechanism_of
+from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, Loads, equilibrium, journal_in
+from tribodyn.presets.journal.model import BEARING, mechanism_of
 from tribodyn.presets.journal.results import loads_as_printed, named_as_printed
 from tribodyn.results.attributes import MODEL
 
@@ -32,15 +33,13 @@ _RELATIVE: Final = np.repeat([1.0, 0.0, 1.0], [ORIENTATION, VELOCITY - ORIENTATI
 
 def journal_of(case: JournalCase) -> Journal:
     """Return the journal that a case describes, as it is at the start."""
-    joint, more = bushing_of(case), case.loads.more
-    changes = bool(more) or case.drive.speed is not None
-    return Journal(
+    more, drive = case.loads.more, case.drive.speed
+    return journal_in(
+        model_of(mechanism_of(case)).clearances[BEARING],
         tilts=case.journal.tilt,
-        speed=case.journal.speed if case.drive.speed is None else case.drive.speed.curve().at_start,
+        speed=case.journal.speed if drive is None else drive.curve().at_start,
         loads=_loads_at_start(case) if more else Loads(**{key: getattr(case.loads, key) for key in _LOADS}),
-        joint=joint,
-        film=case.film.film(joint.geometry, case.surfaces) if case.film.lubricated else None,
-        changes=changes,
+        changes=bool(more) or drive is not None,
     )
 
 
