@@ -185,7 +185,7 @@ def _show_pictures() -> None:
 def _page(summary: dict[str, Any]) -> Iterator[str]:
     from tribodyn.mechanisms.results import known
     from tribodyn.results.summary import caution
-    from tribodyn.views.numbers import rounded
+    from tribodyn.views.numbers import fitting, rounded
 
     yield f"<strong>{escape(str(summary.get('title', '')))}</strong>"
     warning = summary.get("doubtful")
@@ -196,9 +196,11 @@ def _page(summary: dict[str, Any]) -> Iterator[str]:
     )
     for name, key_result in known(summary, str(summary.get("kind", ""))).items():
         value = summary[name]
-        number = f"{rounded(value, key_result.digits):.4g}" if isinstance(value, float) else str(value)
+        unit, factor = fitting(key_result.unit, [value])
+        shown = isinstance(value, float)
+        number = f"{rounded(value * factor, key_result.digits):.4g}" if shown else str(value)
         label = escape(key_result.label_in(summary))
-        yield f"<tr><td style='text-align:left'>{label}</td><td>{number} {escape(key_result.unit)}</td></tr>"
+        yield f"<tr><td style='text-align:left'>{label}</td><td>{number} {escape(unit)}</td></tr>"
     yield "</table>"
     for kind in ("warnings", "notes"):
         yield from (f"<p>{kind[:-1]}: {escape(text)}</p>" for text in summary.get(kind, ()))

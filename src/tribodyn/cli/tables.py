@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.quoting import GREY, PLAIN
-from tribodyn.views.numbers import rounded
+from tribodyn.views.numbers import columns_of, fitting, rounded
 
 if TYPE_CHECKING:
     from tribodyn.results.summary import KeyResult
@@ -63,18 +63,20 @@ def _lines(key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) 
     labels = {name: key_result.label_in(summary) for name, key_result in key_results.items()}
     width = max(map(len, labels.values()), default=0)
     for name, one in key_results.items():
-        line = f"  {labels[name]:<{width}}  {_number(summary[name], one.digits)} {one.unit}".rstrip()
+        unit, factor = fitting(one.unit, [summary[name]])
+        line = f"  {labels[name]:<{width}}  {_number(summary[name], one.digits, factor)} {unit}".rstrip()
         yield grey(line, _mark(name, summary))
 
 
 def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) -> Iterator[str]:
     """Give a table with a row for each part and a column for each quantity."""
-    columns = {f"{h.column_in(summary)} {h.unit}".strip(): "" for h in key_results.values()}
+    columns = {f"{one.label} {one.unit}".strip(): one for one in columns_of(key_results, summary)}
     cells = {
-        (h.part, f"{h.column_in(summary)} {h.unit}".strip()): grey(
-            f"{_number(summary[name], h.digits):>{_COLUMN}}", _mark(name, summary)
+        (h.part, heading): grey(
+            f"{_number(summary[name], h.digits, column.factor):>{_COLUMN}}", _mark(name, summary)
         )
-        for name, h in key_results.items()
+        for heading, column in columns.items()
+        for name, h in column.members.items()
     }
     parts = dict.fromkeys(h.part for h in key_results.values())
     width = max(map(len, (group, *parts)))
@@ -99,11 +101,11 @@ def _pieces(columns: Iterable[str], most: int) -> Iterator[list[str]]:
     yield from (left[begin : begin + most] for begin in range(0, len(left), most))
 
 
-def _number(value: object, digits: int) -> str:
+def _number(value: object, digits: int, factor: float = 1.0) -> str:
     """Write a number with the digits that hold, not in powers of ten where it need not be; counts in full."""
     if not isinstance(value, float):
         return f"{value!s:>9}"
-    number = rounded(value, digits)
+    number = rounded(value * factor, digits)
     return f"{number:>9.0f}" if _SHOWN_IN_FULL[0] <= abs(number) < _SHOWN_IN_FULL[1] else f"{number:>9.4g}"
 
 
@@ -169,10 +171,10 @@ def _limits(record: Mapping[str, Any]) -> Iterator[str]:
 def _sensitivities(record: Mapping[str, Any], shown: Sequence[str]) -> Iterator[str]:
     """Report the share of each parameter in the variance of each number, alone and in all."""
     found = record.get("sensitivities", {})
-    for name, label in _key_results(shown or list(found), record["kind"], every=bool(shown)).items():
+    for name, one in _key_results(shown or list(found), record["kind"], every=bool(shown)).items():
         if name not in found:
             continue
-        yield from ("", f"Sobol' indices of: {label}")
+        yield from ("", f"Sobol' indices of: {one.label} {one.unit}".rstrip())
         yield f"  {'':<34}{'alone':>16}{'in all':>16}"
         for path, index in found[name].items():
             alone, total = (
@@ -190,26 +192,27 @@ def _varying(points: Sequence[Mapping[str, Any]]) -> list[str]:
     return [name for name in names if alone or len(values[name]) > 1]
 
 
-def _key_results(given: Sequence[str], kind: str, *, every: bool) -> dict[str, str]:
-    """Return the headings of the numbers that a user wants to see, by name."""
+def _key_results(given: Sequence[str], kind: str, *, every: bool) -> dict[str, KeyResult]:
+    """Return the numbers that a user wants to see, by name."""
     from tribodyn.mechanisms.results import known
 
     found = known(given, kind)
-    wanted = (
-        {name: found[name] for name in given if name in found}
-        if every
-        else {name: entry for name, entry in found.items() if entry.group not in LEFT_OUT}
-    )
-    return {name: f"{entry.label} {entry.unit}".strip() for name, entry in wanted.items()}
+    if every:
+        return {name: found[name] for name in given if name in found}
+    return {name: entry for name, entry in found.items() if entry.group not in LEFT_OUT}
 
 
-def _points(points: Sequence[Mapping[str, Any]], numbers: Mapping[str, str], *, every: bool) -> Iterator[str]:
+def _points(
+    points: Sequence[Mapping[str, Any]], numbers: Mapping[str, KeyResult], *, every: bool
+) -> Iterator[str]:
     widths = {name: _width(name, points) for name in points[0]["changes"]}
     headings = {name: (name.replace(".", " "), width) for name, width in widths.items()}
     pieces = list(_pieces(numbers, _room(sum(widths.values()) + 2 * len(widths)))) or [[]]
     for piece in pieces if every else pieces[:1]:
-        shown = {name: numbers[name] for name in piece}
-        yield from _heading(headings, shown)
+        units = {name: fitting(numbers[name].unit, [point.get(name) for point in points]) for name in piece}
+        shown = {name: factor for name, (_, factor) in units.items()}
+        labels = {name: f"{numbers[name].label} {unit}".strip() for name, (unit, _) in units.items()}
+        yield from _heading(headings, labels)
         for point in points[:_MOST_ROWS]:
             changes = (f"{point['changes'][name]:<{width}.{width}}" for name, width in widths.items())
             yield "  ".join([*changes, *(grey(cell, point.get("doubtful")) for cell in _cells(point, shown))])
@@ -225,11 +228,12 @@ def _width(name: str, points: Sequence[Mapping[str, Any]]) -> int:
     return max(min(max(map(len, values)), _LONGEST), *map(len, name.split(".")))
 
 
-def _cells(point: Mapping[str, Any], shown: Mapping[str, str]) -> Iterator[str]:
+def _cells(point: Mapping[str, Any], shown: Mapping[str, float]) -> Iterator[str]:
+    """Yield the numbers of a point, each times the factor of its unit."""
     if point["failure"]:
         yield f"no result: {point['failure']}"[: (_COLUMN + 2) * len(shown)]
         return
-    yield from (_cell(point.get(name)) for name in shown)
+    yield from (_cell(point.get(name), factor) for name, factor in shown.items())
 
 
 def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) -> Iterator[str]:
@@ -241,22 +245,27 @@ def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) ->
         yield "  ".join(cells).rstrip()
 
 
-def _statistics(records: Sequence[Mapping[str, Any]], labels: Mapping[str, str]) -> Iterator[str]:
+def _statistics(records: Sequence[Mapping[str, Any]], numbers: Mapping[str, KeyResult]) -> Iterator[str]:
     for record in records:
         at = ", ".join(f"{path} = {value}" for path, value in record["at"].items())
         yield from [at] if at else []
-        yield from _one_statistic(record["numbers"], labels)
+        yield from _one_statistic(record["numbers"], numbers)
 
 
-def _one_statistic(record: Mapping[str, Mapping[str, float]], labels: Mapping[str, str]) -> Iterator[str]:
-    labels = {name: label for name, label in labels.items() if name in record}
+def _one_statistic(
+    record: Mapping[str, Mapping[str, float]], numbers: Mapping[str, KeyResult]
+) -> Iterator[str]:
+    units = {
+        name: fitting(one.unit, record[name].values()) for name, one in numbers.items() if name in record
+    }
+    labels = {name: f"{numbers[name].label} {unit}".strip() for name, (unit, _) in units.items()}
     names = list(next(iter(record.values()), {}))
     width = max((len(label) for label in labels.values()), default=0)
     yield "  ".join([" " * (width + 2), *(f"{name:>{_COLUMN}}" for name in names)])
     for name, label in labels.items():
-        cells = (_cell(record[name].get(statistic)) for statistic in names)
+        cells = (_cell(record[name].get(statistic), units[name][1]) for statistic in names)
         yield "  ".join([f"  {label:<{width}}", *cells])
 
 
-def _cell(value: object) -> str:
-    return f"{value:>{_COLUMN}.4g}" if isinstance(value, (int, float)) else f"{'–':>{_COLUMN}}"
+def _cell(value: object, factor: float) -> str:
+    return f"{value * factor:>{_COLUMN}.4g}" if isinstance(value, (int, float)) else f"{'–':>{_COLUMN}}"

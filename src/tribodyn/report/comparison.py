@@ -21,7 +21,7 @@ from tribodyn.results.atomic import write_text
 from tribodyn.results.store import POINTS, RESULT
 from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common
-from tribodyn.views.numbers import in_words
+from tribodyn.views.numbers import fitting, in_words
 from tribodyn.views.overlay import overlays
 from tribodyn.views.section import Chapter
 
@@ -225,24 +225,25 @@ def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     names = {name: None for summary in summaries for name in summary}
     kinds = {str(summary["kind"]) for summary in summaries}
     kind = kinds.pop() if len(kinds) == 1 else ""
-    rows = [
-        {
-            "label": _label(key_result, summaries),
-            "unit": key_result.unit,
-            "group": key_result.group,
-            "cells": [
-                {
-                    **_cell(summary.get(name), summaries[0].get(name), key_result),
-                    "doubtful": bool(summary["doubtful"]),
-                }
-                for summary in summaries
-            ],
-        }
-        for name, key_result in known(names, kind).items()
-    ]
+    rows = [_row(name, key_result, summaries) for name, key_result in known(names, kind).items()]
     return [
         {"name": name, "rows": list(members)} for name, members in groupby(rows, lambda row: row["group"])
     ]
+
+
+def _row(name: str, key_result: KeyResult, summaries: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    values = [summary.get(name) for summary in summaries]
+    unit, factor = fitting(key_result.unit, values)
+    shown = [value * factor if isinstance(value, float) else value for value in values]
+    return {
+        "label": _label(key_result, summaries),
+        "unit": unit,
+        "group": key_result.group,
+        "cells": [
+            {**_cell(value, shown[0], key_result), "doubtful": bool(summary["doubtful"])}
+            for value, summary in zip(shown, summaries, strict=True)
+        ],
+    }
 
 
 def _label(key_result: KeyResult, summaries: Sequence[Mapping[str, Any]]) -> str:

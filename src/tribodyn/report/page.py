@@ -22,7 +22,7 @@ from tribodyn.report.figures import figures_of
 from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.summary import caution
 from tribodyn.views.encode import inside_page
-from tribodyn.views.numbers import as_read, in_words
+from tribodyn.views.numbers import as_read, columns_of, fitting, in_words
 from tribodyn.views.playback import clock
 
 FOLDER: Final = "assumptions"
@@ -57,17 +57,26 @@ def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict
     here = {key: _nearest(sweep[key].values, case.at(key)) for key in keys}
     shown = known([name for name in summary if name in sweep], str(summary["kind"]))
     rows = [
-        {
-            "label": key_result.label,
-            "unit": key_result.unit,
-            "value": in_words(summary[name], key_result.digits),
-            "whole": _band(sweep[name].values, key_result.digits),
-            "alone": [_band(_alone(sweep[name], key, here), key_result.digits) for key in keys],
-        }
+        _assumed_row(key_result, summary[name], sweep[name], here)
         for name, key_result in shown.items()
         if key_result.group in GROUPS and not key_result.count
     ]
     return {"keys": [{"name": key, "range": _range(sweep[key])} for key in keys], "rows": rows}
+
+
+def _assumed_row(
+    key_result: KeyResult, value: Any, swept: xr.DataArray, here: Mapping[str, int]
+) -> dict[str, Any]:
+    """Return a key result of the run, with its band over all keys and over each alone."""
+    unit, factor = fitting(key_result.unit, [value, *swept.values.ravel().tolist()])
+    digits = key_result.digits
+    return {
+        "label": key_result.label,
+        "unit": unit,
+        "value": in_words(value * factor, digits),
+        "whole": _band(swept.values * factor, digits),
+        "alone": [_band(_alone(swept, key, here) * factor, digits) for key in here],
+    }
 
 
 def _sweep_of(dataset: xr.Dataset, file: Path) -> xr.Dataset | None:
@@ -121,13 +130,20 @@ _NO_CELL: Final = {"value": "–", "assumed": False}
 
 def number(key_result: KeyResult, summary: Mapping[str, Any], name: str) -> Number:
     """Return a key result of a summary in words."""
+    value = summary[name]
+    unit, factor = fitting(key_result.unit, [value])
     return {
         "label": key_result.label_in(summary),
-        "value": in_words(summary[name], key_result.digits),
-        "unit": key_result.unit,
+        "value": _scaled(value, factor, key_result.digits),
+        "unit": unit,
         "meaning": key_result.meaning,
         "assumed": name in summary.get("assumed", ()),
     }
+
+
+def _scaled(value: Any, factor: float, digits: int) -> str:
+    """Return a value in words, a number times a factor."""
+    return in_words(value * factor if isinstance(value, float) else value, digits)
 
 
 def first_numbers(summary: Mapping[str, Any]) -> list[Number]:
@@ -157,22 +173,24 @@ def tables(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, Any]) -> dict[str, Any]:
-    columns = {(one.column_in(summary), one.unit): one for one in key_results.values()}
+    columns = columns_of(key_results, summary)
     cells = {
-        (one.part, one.column_in(summary), one.unit): {
-            "value": in_words(summary[name], one.digits),
+        (one.part, number): {
+            "value": _scaled(summary[name], column.factor, one.digits),
             "assumed": name in summary.get("assumed", ()),
         }
-        for name, one in key_results.items()
+        for number, column in enumerate(columns)
+        for name, one in column.members.items()
     }
     parts = dict.fromkeys(one.part for one in key_results.values())
     return {
         "name": group,
         "columns": [
-            {"label": label, "unit": unit, "meaning": one.meaning} for (label, unit), one in columns.items()
+            {"label": one.label, "unit": one.unit, "meaning": next(iter(one.members.values())).meaning}
+            for one in columns
         ],
         "rows": [
-            {"part": part, "cells": [cells.get((part, *column), _NO_CELL) for column in columns]}
+            {"part": part, "cells": [cells.get((part, number), _NO_CELL) for number in range(len(columns))]}
             for part in parts
         ],
     }

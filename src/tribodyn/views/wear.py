@@ -14,7 +14,7 @@ from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak, series
 from tribodyn.views.unrolled import best_cut, unloaded_middle, wall_angles
 
-UNITS: Final = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}
+UNITS: Final = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9}
 """Units of depth [m], the coarsest first."""
 PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
     (
@@ -36,7 +36,7 @@ PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
 
 def fitting_unit(largest: float) -> tuple[str, float]:
     """Return name and size [m] of the coarsest unit in which ``largest`` [m] is at least one."""
-    return next(((name, size) for name, size in UNITS.items() if largest >= size), ("pm", UNITS["pm"]))
+    return next(((name, size) for name, size in UNITS.items() if largest >= size), ("nm", UNITS["nm"]))
 
 
 def no_feedback(dataset: xr.Dataset) -> FloatArray:

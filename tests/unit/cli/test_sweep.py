@@ -49,7 +49,7 @@ def test_a_sweep_leaves_everything_and_says_where(
     assert "computing 2 of 2 points" in err
     assert "100 %  2 of 2 points" in err
     rows = [line.split() for line in out.splitlines() if line.startswith("2")]
-    assert [row[:3] for row in rows] == [["20", "um", "2000"], ["25", "um", "2500"]]
+    assert [row[:3] for row in rows] == [["20", "um", "2"], ["25", "um", "2.5"]]
     assert "everything is in sweep-vsv/" in out
 
 
@@ -101,7 +101,7 @@ def test_samples_print_statistics(capsys: pytest.CaptureFixture[str]) -> None:
     vary = ["--vary", "joint.friction_coefficient=uniform(0.1, 0.2)", "--vary", "contact.law=ke,rsdc"]
     assert main(["sweep", "vsv", "--workers", "0", *vary, "--samples", "3"]) == 0
     out = capsys.readouterr().out
-    assert out.count("Contact force, peak N") == 2
+    assert out.count("Contact force, peak kN") == 2
     assert "contact.law = ke" in out
     assert "median" in out
 
