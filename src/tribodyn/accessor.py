@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from tribodyn.figures.figure_family import Family
 
 ORBIT: Final = "orbit"
-_ORBITS: Final = ("trajectory", "orbits", "path")
+_ORBITS: Final = ("trajectory", "orbits")
 """Names of the figure of a shaft in its clearance circle, by mechanism."""
 
 

@@ -392,14 +392,12 @@ def test_a_journal_is_followed(opened: Opened, tmp_path: Path) -> None:
     journal = td.simulate(td.load_case("journal-dry").replace({"run.duration": "2 ms"}))
     reader = opened(write(journal, tmp_path))
     reader.draw_everything()
-    assert reader.page.locator("[data-widget]").count() == 4
     times = playback_times(journal)
-    reader.look_at("path")
+    reader.look_at("orbits")
     reader.go_to_frame(times.size // 2)
-    expected = [np.interp(times[times.size // 2], journal["time"], journal["e_x"]) * 1e6]
-    # Positions travel in single precision, 7 digits.
-    shown = [reader.plot("path", "plot.plotted.now[0][0]")]
-    assert shown == pytest.approx(expected, rel=1e-5)
+    expected = np.interp(times[times.size // 2], journal["time"], journal["e_x"]) * 1e6
+    # Positions travel in single precision, 7 digits; between rows the path follows cubics.
+    assert reader.plot("orbits", "plot.plotted.now[0][0]") == pytest.approx(expected, rel=1e-3)
     assert _faults(reader) == []
     reader.keep_picture("journal")
 
