@@ -43,15 +43,15 @@ def _of_packages() -> Iterator[type[ContactLaw]]:
     not keep a user from the others.
     """
     taken = {kind.name for kind in OURS}
-    parameters = {name: said for kind in OURS for name, said in parameters_of(kind)}
+    parameters = {name: described for kind in OURS for name, described in parameters_of(kind)}
     for entry in entry_points(group="tribodyn.laws"):
         try:
             kind = entry.load()
             check_law(kind)
             if kind.name in taken:
                 raise ValueError(f"there is a law {kind.name!r} already")
-            for name, said in parameters_of(kind):
-                if parameters.setdefault(name, said) != said:
+            for name, described in parameters_of(kind):
+                if parameters.setdefault(name, described) != described:
                     raise ValueError(f"another law has another parameter {name!r}")
         except Exception as error:
             warnings.warn(f"the contact law {entry.value} was left out: {error}", stacklevel=2)

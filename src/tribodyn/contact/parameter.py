@@ -50,20 +50,20 @@ def parameter(default: float, unit: str, meaning: str, **more: Any) -> Any:
 
 
 def parameters_of(law: Any) -> Iterator[tuple[str, Parameter]]:
-    """Yield the names of the fields of a law that are such parameters, each with what is said about it."""
+    """Yield the names of the fields of a law that are such parameters, each with its description."""
     for entry in fields(law):
-        if said := entry.metadata.get(_KEY):
-            yield entry.name, said
+        if described := entry.metadata.get(_KEY):
+            yield entry.name, described
 
 
 def check_parameters(law: Any) -> None:
     """Refuse a parameter out of its range, or one that is not a finite number."""
-    for name, said in parameters_of(law):
+    for name, described in parameters_of(law):
         value = getattr(law, name)
-        least = -float("inf") if said.above is None else said.above
-        most = float("inf") if said.most is None else said.most
+        least = -float("inf") if described.above is None else described.above
+        most = float("inf") if described.most is None else described.most
         if not (least < value <= most and abs(value) < float("inf")):
-            limits = [] if said.above is None else [f"> {said.above:g}"]
-            limits += [] if said.most is None else [f"<= {said.most:g}"]
+            limits = [] if described.above is None else [f"> {described.above:g}"]
+            limits += [] if described.most is None else [f"<= {described.most:g}"]
             allowed = " and ".join(limits) or "a finite number"
             raise InputError(f"given {value:g}; allowed: {allowed} (SI units)", key=f"contact.{name}")

@@ -30,7 +30,7 @@ class Family:
     needs
         Names of the variables without which it is not drawn.
     draw
-        Draws it. A result may be short, empty or hold NaN: what is there is drawn and the rest is said.
+        Draws it. A result may be short, empty or hold NaN: what is there is drawn, and a note names the rest.
     """
 
     name: str

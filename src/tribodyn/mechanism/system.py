@@ -324,7 +324,7 @@ class MechanismSystem:
                 **self._reversals.attributes,
                 **({NOT_KEPT: left_out} if (left_out := not_kept(self.case)) else {}),
             },
-            warnings=checks.said(
+            warnings=checks.messages(
                 [*self.assembly.warnings],
                 vibrations.warnings,
                 checks.of_start(self.case.run.start, self._began(run)),
@@ -408,7 +408,7 @@ class MechanismSystem:
         return {"output_error_limit": limits_of(self.case.outputs), **at}
 
     def _vibrations(self, found: Observed, run: FinishedRun) -> Vibrations:
-        """Return frequencies and modes with what is to be said of them; nothing of other analyses."""
+        """Return frequencies and modes with their messages; nothing of other analyses."""
         if self._analysis != "vibrations" or run.solution.t.size == 0:
             return Vibrations()
         return vibrations_of(self.assembly, run.solution.t, found, self.case.run.modes)

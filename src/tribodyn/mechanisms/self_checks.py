@@ -233,9 +233,9 @@ def of_clearance(touch: Touch) -> str:
     )
 
 
-def named(name: str, said: Iterable[str]) -> list[str]:
+def named(name: str, messages: Iterable[str]) -> list[str]:
     """Return sentences about a contact, each with its name before it; empty ones are left out."""
-    return [f"In {name} {text[0].lower()}{text[1:]}" for text in said if text]
+    return [f"In {name} {text[0].lower()}{text[1:]}" for text in messages if text]
 
 
 def _of_liner(touch: Touch, separation: float) -> list[str]:
@@ -265,13 +265,13 @@ def of_tables(
     coordinate
         Returns the values at the rows of what a table follows, shape (n_t,).
     """
-    said = []
+    messages = []
     for table in tables:
         if table.over != "times":
             (low, high), values = table.reach, coordinate(table)
             outside = np.flatnonzero((values < low) | (values > high))[:1]
-            said += [table.warning(float(times[row]), past=bool(values[row] > high)) for row in outside]
-    return said
+            messages += [table.warning(float(times[row]), past=bool(values[row] > high)) for row in outside]
+    return messages
 
 
 def of_steps(statistics: Mapping[str, float]) -> list[str]:

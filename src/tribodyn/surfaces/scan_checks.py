@@ -1,4 +1,4 @@
-"""Whether a scan can be measured: what is refused, and what is said about it."""
+"""Checks of a scan: what is refused, and remarks."""
 
 import math
 from typing import Final

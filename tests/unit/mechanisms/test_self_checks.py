@@ -106,7 +106,7 @@ def of_general(vsv: Vsv, seen: dict[str, float], cost: dict[str, float]) -> list
     }
     found = {name: np.array([value]) for name, value in loading(seen).items()}
     found["grid_force_error"] = np.array([seen["grid"]])
-    return general_checks.said(
+    return general_checks.messages(
         general_checks.of_balance(seen["energy"], np.zeros(1)),
         contacts.warnings(peaks, found, T_END),
         cost=cost,

@@ -98,7 +98,7 @@ class Contacts:
         self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray], t_end: float
     ) -> list[str]:
         """Return remarks on each surface; ``found`` is from :meth:`numbers_of`."""
-        said = []
+        messages = []
         for s, (name, touch) in enumerate(zip(self.names, self.touches, strict=True)):
             load = {key: float(found[key][s]) for key in ("hardness_share", "real_area_share")}
             of_surface = of_contact(
@@ -110,21 +110,21 @@ class Contacts:
                 keys=f"joints.{name.partition(':')[0]}.clearance.nodes_around and nodes_along",
             )
             when = instant(float(peaks["pressure_peak_time"][s]))
-            said += named(name, [*of_surface, *of_load(load, when)])
-        return said
+            messages += named(name, [*of_surface, *of_load(load, when)])
+        return messages
 
     def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:
         """Return a remark on pressures with damping, of many surfaces that with the largest share."""
         pressure, at_rest = peaks["pressure_peak"], found["pressure_at_rest"]
-        said = {
+        messages = {
             s: text
             for s, name in enumerate(self.names)
             for text in named(name, [of_damping_pressure(float(pressure[s]), float(at_rest[s]))])
         }
-        most = sorted(said, key=lambda s: float(at_rest[s] - pressure[s]))[:_NOTED]
-        left_out = len(said) - len(most)
+        most = sorted(messages, key=lambda s: float(at_rest[s] - pressure[s]))[:_NOTED]
+        left_out = len(messages) - len(most)
         more = [f"The same of {left_out} more surfaces, where damping carries less."] if left_out else []
-        return [said[s] for s in sorted(most)] + more
+        return [messages[s] for s in sorted(most)] + more
 
     def _on_finer_grid(
         self, data: SurfaceData, rows: Mapping[str, FloatArray], openings: FloatArray

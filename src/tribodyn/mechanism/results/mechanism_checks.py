@@ -55,8 +55,8 @@ def of_start(asked: str, began: Mapping[str, str]) -> list[str]:
     ]
 
 
-def said(*parts: Sequence[str], cost: Mapping[str, float]) -> list[str]:
-    """Return all that is to be said, that of the integration last."""
+def messages(*parts: Sequence[str], cost: Mapping[str, float]) -> list[str]:
+    """Return all messages, those on the integration last."""
     return [message for part in (*parts, of_steps(cost)) for message in part if message]
 
 

@@ -65,20 +65,20 @@ def radial_clearances(model: Model, t: FloatArray) -> dict[str, FloatArray]:
 def of_temperatures(model: Model) -> list[str]:
     """Return the clearances and materials that differ at the temperatures of the run, in words."""
     over_time = radial_clearances(model, np.linspace(0.0, model.case.duration, ROWS))
-    said = []
+    messages = []
     for number, (name, hot) in zip(model.real, model.clearances.items(), strict=True):
         keys = model.case.joints[name].real
         assert keys is not None
         if hot.openings[0] is not None:
             own = over_time["radial_clearance"][:, number]
-            said += named(name, [of_clearances(float(own[0]), float(own[-1]), float(own.min()))])
+            messages += named(name, [of_clearances(float(own[0]), float(own[-1]), float(own.min()))])
         elif keys.radial is not None:
             found = keys.temperature.properties_at_start
             kept = {path: ends for path, ends in found.items() if path != _FRICTION}
             if _FRICTION in found and found[_FRICTION][1] == keys.friction_coefficient:
                 kept[_FRICTION] = found[_FRICTION]
-            said += named(name, [of_heat(keys.radial, hot.shape.clearance, kept)])
-    return said
+            messages += named(name, [of_heat(keys.radial, hot.shape.clearance, kept)])
+    return messages
 
 
 def depth_of(data: SurfaceData, places: Sequence[Place]) -> FloatArray:
