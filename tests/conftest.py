@@ -18,9 +18,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.integrate.driver import IntegrationTask, Stepwise
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.clearances import Clearance
-from tribodyn.joints.shapes import SHAPES
+from tribodyn.joints.shapes import SHAPES, Cylinder
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
@@ -125,7 +125,7 @@ def make_joint(contact_table: ContactTable, table_1_pair: SurfacePair) -> Callab
         table: ContactTable = contact_table,
     ) -> BushingJoint:
         return BushingJoint(
-            BushingGeometry(clearance, 6e-3, 20e-3),
+            Cylinder(6e-3, clearance, 20e-3),
             Friction(coefficient, friction, slip_velocity),
             EntryMemory(4.0, minimum_velocity, clip),
             Grid(*grid),

@@ -7,13 +7,13 @@ import pytest
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.joints import BushingGeometry
 from tribodyn.joints.expansion import Casing, clearance_rates, expanded
+from tribodyn.joints.shapes import Cylinder
 from tribodyn.kernels.actions import NONE
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.system import VsvSystem
 
-COLD = BushingGeometry(clearance=60e-6, radius=6e-3, length=20e-3)
+COLD = Cylinder(clearance=60e-6, radius=6e-3, length=20e-3)
 ALPHA_T, ALPHA_B, ALPHA_C, NU, THICKNESS, RISE = 12e-6, 50e-6, 11e-6, 0.34, 1e-3, 380.0
 CASING = Casing(ALPHA_C * RISE, THICKNESS, NU)
 
@@ -50,13 +50,13 @@ def test_a_sleeve_of_the_casings_material_is_part_of_it() -> None:
 
 
 def test_a_seizure_is_refused_in_words() -> None:
-    tight = BushingGeometry(clearance=20e-6, radius=6e-3, length=20e-3)
+    tight = Cylinder(clearance=20e-6, radius=6e-3, length=20e-3)
     with pytest.raises(InputError, match="would seize") as caught:
         expanded(tight, trunnion=ALPHA_T * RISE, bushing=ALPHA_B * RISE, casing=CASING)
     assert caught.value.key == "joint.clearance"
     needed = float(str(caught.value).split("more than ")[1].split(" um")[0]) * 1e-6
     expanded(
-        BushingGeometry(1.01 * needed, 6e-3, 20e-3),
+        Cylinder(6e-3, 1.01 * needed, 20e-3),
         trunnion=ALPHA_T * RISE,
         bushing=ALPHA_B * RISE,
         casing=CASING,

@@ -13,7 +13,8 @@ from tribodyn.cases.signals import BoreMap, ProfileTable
 if TYPE_CHECKING:
     from tribodyn.cases.groups import Surfaces
     from tribodyn.contact import Liner
-    from tribodyn.joints import BushingGeometry, Form
+    from tribodyn.joints import Form
+    from tribodyn.joints.shapes import Cylinder
     from tribodyn.lubrication import Film
 
 
@@ -188,7 +189,7 @@ class FilmKeys(Group):
     )
     grid: FilmGridKeys = FilmGridKeys()
 
-    def film(self, size: BushingGeometry, surfaces: Surfaces) -> Film:
+    def film(self, size: Cylinder, surfaces: Surfaces) -> Film:
         """Return the film in a bushing of a size between two rough surfaces."""
         from tribodyn.lubrication import Film, FilmGrid, Roughness
 

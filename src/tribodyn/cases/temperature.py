@@ -17,8 +17,8 @@ from tribodyn.cases.signals import TemperatureTable
 
 if TYPE_CHECKING:
     from tribodyn.core.signals import Signal
-    from tribodyn.joints import BushingGeometry
     from tribodyn.joints.expansion import Casing
+    from tribodyn.joints.shapes import Cylinder
 
 PARTS: Final = ("trunnion", "bushing", "casing")
 OVER_TIME: Final = "temperature.over_time"
@@ -142,9 +142,7 @@ class Temperatures(Group):
         """Return the free thermal strains αΔT of trunnion and bushing [1]."""
         return self._strain("trunnion", surfaces, names), self._strain("bushing", surfaces, names)
 
-    def hot(
-        self, cold: BushingGeometry, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
-    ) -> BushingGeometry:
+    def hot(self, cold: Cylinder, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()) -> Cylinder:
         """Return the dimensions of a joint at these temperatures, those where a run begins.
 
         Parameters
@@ -227,7 +225,7 @@ class Temperature(Temperatures):
         """Properties at assembly and at the start of a run, by keys; of tables that hold both."""
         return self.properties.values_at(self.assembly, self.at_start["bushing"] or self.assembly)
 
-    def dimensions(self, joint: PlainJoint, surfaces: Surfaces) -> BushingGeometry:
+    def dimensions(self, joint: PlainJoint, surfaces: Surfaces) -> Cylinder:
         """Return the dimensions of the joint of a case at these temperatures, see :meth:`hot`."""
         return self.hot(cold_geometry(joint), surfaces, joint.liner)
 
@@ -261,7 +259,7 @@ class ChangingTemperature(Temperature):
         return super().at_start | {part: table.curve().at_start for part, table in self.tables.items()}
 
     def opening(
-        self, cold: BushingGeometry, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
+        self, cold: Cylinder, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()
     ) -> Signal | None:
         """Return the growth of the clearance since the start, over time [m, s]; None where it is constant.
 
@@ -312,7 +310,7 @@ class ChangingTemperature(Temperature):
 
     def check(
         self,
-        cold: BushingGeometry,
+        cold: Cylinder,
         surfaces: Surfaces,
         liner: LinerKeys,
         duration: float,
@@ -331,12 +329,12 @@ class ChangingTemperature(Temperature):
         demand(clearance + least > 0.0, f"{names.temperature}over_time", words)
 
 
-def cold_geometry(joint: PlainJoint) -> BushingGeometry:
+def cold_geometry(joint: PlainJoint) -> Cylinder:
     """Return the dimensions of a joint at assembly."""
     # Imported here: reading a case needs no compiled code.
-    from tribodyn.joints import BushingGeometry
+    from tribodyn.joints.shapes import Cylinder
 
-    return BushingGeometry(joint.clearance, joint.radius, joint.length)
+    return Cylinder(joint.radius, joint.clearance, joint.length)
 
 
 def _values_at(

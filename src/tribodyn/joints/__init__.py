@@ -1,13 +1,12 @@
 """Clearance joints: geometry, contact law and friction, made into what the kernels read."""
 
-from tribodyn.joints.bushing import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.bushing import BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import CONTACTS, SURFACE, contact_table, point_table
 
 __all__ = [
     "CONTACTS",
     "SURFACE",
-    "BushingGeometry",
     "BushingJoint",
     "EntryMemory",
     "Form",

@@ -15,6 +15,7 @@ from tribodyn.core.tables import ContactTable
 from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.rings import Rings
 from tribodyn.joints.shapes.surface import Points, Surface
 from tribodyn.joints.touch import Touch
@@ -30,30 +31,6 @@ from tribodyn.kernels.joints.surface.tilt import AXIS
 
 FRICTION_MODELS: Final = ("traction", "moment")
 """Friction as traction along the actual slip, or as the paper's moment without a force."""
-
-
-@dataclass(frozen=True)
-class BushingGeometry:
-    """Dimensions of the joint [m].
-
-    Attributes
-    ----------
-    clearance
-        Radial clearance c = r_b − r_j.
-    radius
-        Radius r_j of the trunnion.
-    length
-        Length l_z of the bushing.
-    """
-
-    clearance: float
-    radius: float
-    length: float
-
-    @property
-    def bore_radius(self) -> float:
-        """Radius r_b of the bushing [m]."""
-        return self.radius + self.clearance
 
 
 @dataclass(frozen=True)
@@ -129,7 +106,7 @@ class BushingJoint:
         What the surfaces stand back from cylinders.
     """
 
-    geometry: BushingGeometry
+    geometry: Cylinder
     friction: Friction
     entry: EntryMemory
     grid: Grid

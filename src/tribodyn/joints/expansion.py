@@ -9,7 +9,7 @@ All strains are free ones, αΔT.
 from dataclasses import dataclass, replace
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.bushing import BushingGeometry
+from tribodyn.joints.shapes.cylinder import Cylinder
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Casing:
     poisson_ratio: float
 
 
-def clearance_rates(geometry: BushingGeometry, casing: Casing | None) -> dict[str, float]:
+def clearance_rates(geometry: Cylinder, casing: Casing | None) -> dict[str, float]:
     """Return the gain of the clearance for each strain αΔT, by the part that it belongs to [m].
 
     Arguments as for :func:`expanded`; the strain of the casing itself does not matter.
@@ -45,13 +45,13 @@ def clearance_rates(geometry: BushingGeometry, casing: Casing | None) -> dict[st
 
 
 def expanded(
-    geometry: BushingGeometry,
+    geometry: Cylinder,
     *,
     trunnion: float,
     bushing: float,
     casing: Casing | None = None,
     key: str = "joint.clearance",
-) -> BushingGeometry:
+) -> Cylinder:
     """Return the dimensions at the temperatures of a run.
 
     Parameters
@@ -83,7 +83,7 @@ def expanded(
     return replace(geometry, clearance=bore - radius, radius=radius, length=length)
 
 
-def _bonded(geometry: BushingGeometry, strain: float, casing: Casing) -> float:
+def _bonded(geometry: Cylinder, strain: float, casing: Casing) -> float:
     """Return the bore of a bonded sleeve [m]."""
     outer = (geometry.bore_radius + casing.thickness) * (1.0 + casing.strain)
     squeezed = 2.0 * casing.poisson_ratio / (1.0 - casing.poisson_ratio) * (strain - casing.strain)

@@ -16,8 +16,9 @@ from tribodyn.contact import HasSurfacePair, Liner, SurfacePair
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import skip
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid, contact_table
+from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_report, joint_wrench, new_memory
+from tribodyn.joints.shapes import Cylinder
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.wear import resampled
@@ -69,7 +70,7 @@ class Bearing:
 
     contact: groups.Contact
     pair: SurfacePair
-    geometry: BushingGeometry
+    geometry: Cylinder
     liner: Liner | None
     friction: Friction
 

@@ -96,6 +96,11 @@ class Cylinder:
             )
 
     @property
+    def bore_radius(self) -> float:
+        """Radius of the bore [m]."""
+        return self.radius + self.clearance
+
+    @property
     def faces(self) -> dict[str, float]:
         """Gaps of the end faces it has [m]: ``upper``, ``lower``."""
         gaps = {"upper": self.axial_upper, "lower": self.axial_lower}

@@ -12,7 +12,7 @@ from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
-from tribodyn.joints import BushingGeometry, Friction
+from tribodyn.joints import Friction
 from tribodyn.joints.clearances import Clearance, table_of
 from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
 from tribodyn.kernels import dense
@@ -43,7 +43,7 @@ def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
     return Bearing(
         contact=pair.contact,
         pair=pair.surface_pair,
-        geometry=BushingGeometry(shape.clearance, shape.radius, shape.length),
+        geometry=shape,
         liner=_liner(case, name, keys),
         friction=Friction(keys.friction_coefficient, "traction", keys.slip_velocity),
     )
@@ -137,7 +137,7 @@ def _film(joint: JointKeys, shape: Shape, surfaces: Surfaces) -> Film | None:
     if joint.film is None:
         return None
     assert isinstance(shape, Cylinder)
-    return joint.film.film(BushingGeometry(shape.clearance, shape.radius, shape.length), surfaces)
+    return joint.film.film(shape, surfaces)
 
 
 def _liner(case: MechanismCase, name: str, keys: ClearanceKeys) -> Liner | None:
@@ -197,10 +197,11 @@ def _names(name: str, keys: ClearanceKeys) -> Names:
     return Names(f"{joint}radial", joint, f"{joint}temperature.", pair)
 
 
-def _geometry(shape: _Round) -> BushingGeometry:
-    """Return the dimensions of a round shape that temperatures change."""
-    length = shape.length if isinstance(shape, Cylinder) else 0.0
-    return BushingGeometry(shape.clearance, shape.radius, length)
+def _geometry(shape: _Round) -> Cylinder:
+    """Return the dimensions of a round shape that temperatures change: those of the cylinder about a ball."""
+    return (
+        shape if isinstance(shape, Cylinder) else Cylinder(shape.radius, shape.clearance, 2.0 * shape.radius)
+    )
 
 
 def _openings(

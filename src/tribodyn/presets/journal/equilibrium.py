@@ -13,7 +13,7 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.joints import BushingGeometry, BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.bushing import new_memory
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.shapes import Cylinder
@@ -120,7 +120,7 @@ def journal_in(
     shape = real.shape
     assert isinstance(shape, Cylinder)
     joint = BushingJoint(
-        geometry=BushingGeometry(shape.clearance, shape.radius, shape.overlap),
+        geometry=shape,
         friction=Friction(real.friction_coefficient, "traction", real.slip_velocity),
         entry=EntryMemory(real.onset, real.minimum_velocity, real.tensile_clip),
         grid=Grid(*real.grid),
