@@ -52,7 +52,7 @@ TEXTS = {
     "only a head": (HEAD.encode(), "no heights"),
     "only blank lines": (b"\n\n \n", "no heights"),
     "binary": (b"\x00\x01\x02" * 100, "binary file"),
-    "not UTF-8": (b"\xff\xfe1,2\n", "not UTF-8 text (byte 0)"),
+    "not UTF-8": (b"\xff\xfe1,2\n", "not UTF-8 text (byte 0, line 1)"),
     "words": (text(["one,two", "three,four", "five,six"]), "there are no heights"),
     "a word among numbers": (text(with_field(rows(), 9, "high")), 'line 12: given "high"'),
     "an expression": (text(with_field(rows(), 9, "__import__('os')")), "line 12"),

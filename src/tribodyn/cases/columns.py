@@ -29,7 +29,7 @@ from tribodyn.cases.keys import Key, ValueProblem, shown
 from tribodyn.cases.units import UnitProblem, dimension, si_unit, to_si
 from tribodyn.core.delimited import is_comment, named, separator_of, with_points
 from tribodyn.core.errors import InputError
-from tribodyn.core.files import read_regular
+from tribodyn.core.files import read_regular, text_of
 from tribodyn.core.quoting import LONGEST, brief
 
 TABLE: Final = "table"
@@ -81,13 +81,13 @@ def with_tables_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> d
 
 def _text(file: Path) -> str:
     try:
-        return read_regular(file, LARGEST).decode("utf-8-sig")
+        return text_of(read_regular(file, LARGEST))
     except FileNotFoundError:
         raise TableProblem("there is no such file; its name is relative to the case file") from None
-    except UnicodeDecodeError as error:
-        raise TableProblem(f"it is not UTF-8 text (byte {error.start})") from None
     except OSError as error:
         raise TableProblem(f"it cannot be read ({error.strerror})") from None
+    except ValueError as error:
+        raise TableProblem(str(error)) from None
 
 
 def _expected(found: Mapping[str, str], knots: Sequence[str]) -> None:

@@ -4,7 +4,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -13,7 +13,7 @@ from tribodyn.cases.entry import Entry
 from tribodyn.cases.keys import shown
 from tribodyn.core import toml
 from tribodyn.core.errors import MOST_FAULTS, InputError, together
-from tribodyn.core.files import read_regular
+from tribodyn.core.files import read_regular, text_of
 from tribodyn.core.quoting import LONGEST, brief, closest, meant
 
 
@@ -51,6 +51,8 @@ _BARE: Final = re.compile(
     re.ASCII,
 )
 """A line whose value is a quantity without quotes, a number with a decimal comma, or a word."""
+_BACKSLASH: Final = re.compile(r"\"[^\"]*\\(?![btnfr\"\\])")
+"""A backslash in double quotes that begins no sign of TOML, or a path that ends in U or u."""
 _OPEN: Final = re.compile(r"\s*[A-Za-z0-9_.-]+\s*=\s*\"[^\"]+")
 _TABLE: Final = re.compile(r"\s*\[\s*([A-Za-z0-9_.\"' -]+?)\s*\]\s*(?:#|$)")
 _KEY: Final = re.compile(r"\s*([A-Za-z0-9_.\"' -]+?)\s*=")
@@ -235,10 +237,9 @@ def _text(name: str, built_in: Mapping[str, BuiltIn]) -> str:
 def _decoded(content: bytes, source: str) -> str:
     """Return the text of a file, refusing what cannot be TOML."""
     try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        words = _other_program(source) or f"the file is not UTF-8 text (byte {error.start})"
-        raise InputError(words, source=source) from None
+        text = text_of(content)
+    except ValueError as error:
+        raise InputError(_other_program(source) or str(error), source=source) from None
     if "\0" in text:
         words = _other_program(source) or "this is a binary file, not TOML text"
         raise InputError(words, source=source)
@@ -324,7 +325,8 @@ def _reasons(text: str, error: ValueError) -> Iterator[str]:
 
 
 def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
-    near = closest(name, built_in)
+    stem = PureWindowsPath(name).stem
+    near = stem if stem in built_in else closest(name, built_in)
     hint = f"; did you mean {near}?" if near else ""
     return f"there is no such file, and no built-in case of this name (built in: {', '.join(built_in)}){hint}"
 
@@ -344,6 +346,8 @@ def _hint(line: str) -> str:
     match = _BARE.fullmatch(line[:_LONGEST_LINE])
     if match is not None:
         return _with_quotes(*match.groups())
+    if _BACKSLASH.search(line[:_LONGEST_LINE]):
+        return "in double quotes a backslash begins a special sign; write /, or single quotes around the text"
     return 'this text does not end; a second " is missing' if _OPEN.fullmatch(line[:_LONGEST_LINE]) else ""
 
 

@@ -297,6 +297,10 @@ def _split(text: str) -> tuple[Decimal, str]:
     return Decimal(number), f"1{unit}" if unit.startswith("/") else unit
 
 
+_COMMA: Final = re.compile(r"\d,\d")
+"""Decimal comma of a computation."""
+
+
 class _Scale(NamedTuple):
     """Unit in SI base units: zero + factor times the number, in ``base``."""
 
@@ -312,6 +316,8 @@ class _Scale(NamedTuple):
 def _known(unit: str) -> _Scale:
     """Return the definition of a unit that a user wrote."""
     unit = _BARE_POWER.sub(r"^\1", unit)
+    if _COMMA.search(unit):
+        raise UnitProblem("numbers have a decimal point, not a comma")
     if not _UNIT_PATTERN.fullmatch(unit):
         raise UnitProblem(
             f"{brief(unit)!r} is not a unit (write products and powers as N*m or N m, m/s, 1/um^2)"

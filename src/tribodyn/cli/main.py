@@ -102,7 +102,8 @@ class _Parser(argparse.ArgumentParser):
         hint = f"; did you mean {near}?" if near else ""
         if not near and "--set" in options:
             hint = "; values of the case are changed by --set PATH=VALUE"
-        hint = hint if unknown[0].startswith("-") else ""
+        if not unknown[0].startswith("-"):
+            hint = "; the command takes one case, and PATH=VALUE follows --set" if "--set" in options else ""
         below.error(f"unrecognized arguments: {brief(' '.join(unknown))}{hint}")
 
 

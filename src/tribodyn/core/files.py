@@ -12,6 +12,8 @@ from typing import BinaryIO, Final
 _FLAGS: Final = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY")
 )
+ARCHIVES: Final = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
+"""Beginnings of workbooks and documents of offices."""
 _UNITS: Final = ((10**9, "GB"), (10**6, "MB"), (10**3, "kB"), (1, "bytes"))
 
 
@@ -62,6 +64,31 @@ def read_regular(path: str | os.PathLike[str], most: int) -> bytes:
     if len(content) > size:
         raise OSError(errno.EBUSY, "the file grows while it is read")
     return content
+
+
+def text_of(content: bytes, start: int = 0) -> str:
+    """Return the text of a file, UTF-8 with or without its mark.
+
+    Parameters
+    ----------
+    content
+        Of the file, from byte ``start`` on.
+    start
+        Place of its beginning.
+
+    Raises
+    ------
+    ValueError
+        It is no such text; the message says what it is, or where it ends to be one, and what to do.
+    """
+    if content.startswith(ARCHIVES):
+        raise ValueError("this is a workbook or a document of an office program: save the sheet as CSV")
+    try:
+        return content.decode("utf-8-sig" if start == 0 else "utf-8")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        where = f"byte {start + error.start}" + ("" if start else f", line {line}")
+        raise ValueError(f"the file is not UTF-8 text ({where}); save it with the encoding UTF-8") from None
 
 
 def _refuse(found: os.stat_result, most: int) -> None:

@@ -390,7 +390,7 @@ class MechanismCase(_WithElements):
             demand(coordinate in free, f"drives.{name}.joint", words)
             if level < 2:
                 other = driven.setdefault((drive.joint, coordinate), name)
-                words = f"{other} drives the {coordinate} of {drive.joint} already"
+                words = f"drive {other} has the {coordinate} of {drive.joint} already; keep {name} or {other}"
                 demand(other == name, f"drives.{name}.joint", words)
 
     def _check_loads(self) -> None:

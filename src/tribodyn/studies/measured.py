@@ -29,7 +29,7 @@ from tribodyn.cases.units import UnitProblem, to_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.delimited import is_comment, named, separator_of, with_points
 from tribodyn.core.errors import InputError
-from tribodyn.core.files import read_regular
+from tribodyn.core.files import read_regular, text_of
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.columns import unit_of, variable
@@ -180,8 +180,8 @@ def read(path: str | Path, run: xr.Dataset) -> Measured:
     """
     try:
         content = read_regular(path, LARGEST)
-        lines = [line for line in content.decode("utf-8-sig").splitlines() if line.strip()]
-    except (OSError, UnicodeDecodeError) as error:
+        lines = [line for line in text_of(content).splitlines() if line.strip()]
+    except (OSError, ValueError) as error:
         raise InputError(f"{as_given(str(path))} cannot be read: {error}", key=OPTION) from None
     lines = [line for line in lines if not is_comment(line)]
     if len(lines) < 2:
@@ -200,11 +200,12 @@ def read(path: str | Path, run: xr.Dataset) -> Measured:
 
 def _curves(header: Sequence[str], rows: Sequence[Sequence[str]], run: xr.Dataset) -> list[MeasuredCurve]:
     columns = [_described(cell) for cell in header]
-    if columns[0][0] != "time" or len(columns) < 2:
-        raise InputError(
-            f"the first column is {as_given(header[0])}; allowed: time [s], or {QUANTITY} for numbers",
-            key=OPTION,
-        )
+    if columns[0][0] != "time":
+        allowed = f"time [s], or {QUANTITY} for numbers"
+        raise InputError(f"the first column is {as_given(header[0])}; allowed: {allowed}", key=OPTION)
+    if len(columns) < 2:
+        words = "the file has one column; beside the times it needs a column such as drive_moment.main [N m]"
+        raise InputError(words, key=OPTION)
     times = _column(rows, 0, columns[0][1], "s")
     if not np.all(np.diff(times) > 0.0):
         raise InputError("the times must rise from row to row", key=OPTION)

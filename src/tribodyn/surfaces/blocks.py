@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import codecs
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import BinaryIO, Final
 
 from tribodyn.core.delimited import SEPARATORS, with_points
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import ARCHIVES, text_of
 
 _MARKS: Final = tuple(mark.encode() for mark in SEPARATORS)
 BLOCK: Final = 1_000_000
@@ -103,11 +103,9 @@ def too_long(number: int, source: str) -> InputError:
 
 
 def _decoded(content: bytes, start: int, source: str) -> str:
-    if b"\0" in content:
+    if b"\0" in content and not content.startswith(ARCHIVES):
         raise InputError("this is a binary file, not text with commas", source=source)
-    mark = len(codecs.BOM_UTF8) if start == 0 and content.startswith(codecs.BOM_UTF8) else 0
     try:
-        return content[mark:].decode("utf-8")
-    except UnicodeDecodeError as error:
-        place = start + mark + error.start
-        raise InputError(f"the file is not UTF-8 text (byte {place})", source=source) from None
+        return text_of(content, start)
+    except ValueError as error:
+        raise InputError(str(error), source=source) from None

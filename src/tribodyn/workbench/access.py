@@ -22,7 +22,7 @@ TOKEN, SECRET = "token", "secret"
 _SHOWN: Final = ("/", "/assets/")
 """Beginnings of addresses without secrets: the page and its assets."""
 _BYTES: Final = 32
-_REFUSED: Final = b"403: this is not for you\n"
+_REFUSED: Final = b"403: this page is open in another browser. `tribodyn workbench` opens one for this.\n"
 
 
 @dataclass

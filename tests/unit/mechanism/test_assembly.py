@@ -133,9 +133,9 @@ def test_redundancy_names_the_joints_of_the_loop_alone() -> None:
 def test_a_small_gap_is_closed_on_the_branch_that_was_drawn() -> None:
     assembly = assemble(moved(four_bar(), "C", (1e-3, 2e-3, 0.0)))
     assembly.require_sound()
-    assert 0.0 < assembly.moved < 0.01
+    assert 0.0 < assembly.moved.max() < 0.01
     assert assembly.state[13 + 1] > 0.0
-    assert "moved a body" in assembly.remarks[-1]
+    assert re.search(r"assembly moved \w+ by", assembly.remarks[-1])
 
 
 def test_a_gap_that_does_not_close_is_told_with_its_joint_and_bodies() -> None:

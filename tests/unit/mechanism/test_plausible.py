@@ -86,4 +86,4 @@ def test_what_does_nothing_is_reported_or_refused() -> None:
 
 def test_a_run_says_that_assembly_moved_a_body() -> None:
     case = parsed(IDEAL).replace({"joints.wrist.other_point": "175, 0, 0 mm", "run.analysis": "kinematic"})
-    assert "assembly moved a body by 5 mm" in td.simulate(case).attrs["notes"]
+    assert "assembly moved slider by 5 mm" in td.simulate(case).attrs["notes"]

@@ -54,7 +54,7 @@ class Assembly:
     inexact
         Warnings of bodies whose masses differ so much that reactions lose digits.
     moved
-        How far assembly has moved the body that it moved farthest [m].
+        How far assembly has moved the mass centre of each body [m], shape (n,).
     state
         State at the start, shape (13 n,).
     data
@@ -77,7 +77,7 @@ class Assembly:
     freedoms: int
     redundancy: Redundancy | None
     inexact: tuple[str, ...]
-    moved: float
+    moved: FloatArray
     state: FloatArray
     data: MechanismData
     ideal_rank: int
@@ -122,9 +122,11 @@ class Assembly:
     @property
     def notes(self) -> tuple[str, ...]:
         """Return that bodies do not start where the model has them."""
-        if self.moved <= CLOSED * float(self.data.parts.constants.size):
+        farthest = int(np.argmax(self.moved))
+        if self.moved[farthest] <= CLOSED * float(self.data.parts.constants.size):
             return ()
-        return (f"assembly moved a body by {self.moved * 1e3:.4g} mm to close the joints",)
+        body = self.model.bodies[farthest]
+        return (f"assembly moved {body} by {self.moved[farthest] * 1e3:.4g} mm to close the joints",)
 
     def require_sound(self) -> None:
         """Raise ``InputError`` of the first finding, if there is one."""
@@ -176,7 +178,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     unequal, inexact = system.unequal(rank)
     contrary = start(system, speeds_of(model), ideal, fits=not findings_if_ideal)
     findings += findings_if_ideal if findings_if_ideal and contrary else [*unequal, *contrary]
-    moved = float(np.max(np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)))
+    moved = np.linalg.norm(system.now.bodies.r[:-1] - system.parts.bodies.centre, axis=1)
     state = np.zeros(N_STATES * len(model.bodies))
     collect(system.now.bodies, state)
     freedoms = 6 * len(model.bodies) - rank
