@@ -118,6 +118,54 @@ def test_an_output_that_drives_leave_free_has_no_ideal_value() -> None:
     assert "error_max_um_tip" not in summarise(result)
 
 
+def pushed(push: str, **output: str) -> td.Mechanism:
+    """Return a slider-crank at its dead centre with play in the wrist, set in motion as named."""
+    drawn = (
+        td.Mechanism("Pushed slider-crank", run={"duration": "40 ms", "step_rows": 0})
+        .body("crank", mass="0.3 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        .body("rod", mass="0.2 kg", centre="110, 0, 0 mm", **BAR)
+        .body("slider", mass="0.14 kg", centre="170, 0, 0 mm", **BAR)
+        .revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
+        .revolute("crankpin", "crank", "rod", point="50, 0, 0 mm", axis=[0, 0, 1])
+        .revolute("wrist", "rod", "slider", point="170, 0, 0 mm", axis=[0, 0, 1])
+        .prismatic("guide", "ground", "slider", point="170, 0, 0 mm", axis=[1, 0, 0])
+        .clearance("wrist", radial="20 um", radius="10 mm", length="20 mm")
+        .output("way", "slider", along=[1, 0, 0], **output)
+    )
+    if push == "torque":
+        return drawn.drive("push", "main", torque="2 N m")
+    if push == "motor":
+        return drawn.motor("push", joint="main", stall_torque="3 N m", no_load_speed="3000 rpm")
+    return drawn.torsion_spring("push", joint="main", stiffness="0.5 N m/rad", preload="2 N m")
+
+
+@pytest.mark.parametrize(
+    ("push", "output"),
+    [("torque", {}), ("motor", {}), ("spring", {"follows": "main"})],
+    ids=lambda of: str(of),
+)
+def test_the_error_is_that_at_the_same_place_of_a_joint(push: str, output: dict[str, str]) -> None:
+    run = td.simulate(pushed(push, **output))
+    theta = column(run, "joint_angle")[:, 0]
+    assert np.ptp(theta) > 0.5
+    known = CRANK * np.cos(theta) + np.sqrt(ROD**2 - (CRANK * np.sin(theta)) ** 2) - (CRANK + ROD)
+    np.testing.assert_allclose(column(run, "output_ideal")[:, 0], known, atol=1e-9)
+    error = np.abs(column(run, "output_error")[:, 0]).max()
+    assert 5e-6 < error < 25e-6  # the pin goes through its clearance of 20 um, and a little into the bore
+    assert "the error of output way is that at the same place of main" in run.attrs["notes"]
+
+
+def test_an_output_at_a_dead_centre_depends_on_the_freedom_that_is_left() -> None:
+    run = td.simulate(pushed("spring"))
+    assert np.isnan(column(run, "output_error")).all()
+    assert "output way depends on a freedom" in run.attrs["notes"]
+
+
+def test_a_joint_that_is_not_there_cannot_be_followed() -> None:
+    with pytest.raises(TribodynError, match=r"outputs.way.follows: .*mian.*main"):
+        pushed("motor", follows="mian").case()
+
+
 def test_a_reference_that_moves_carries_its_directions() -> None:
     # In axes of the crank, the far end of the rod's pin moves on a circle about the crank pin.
     drawn = press().output("seen", "rod", point="170, 0, 0 mm", reference="crank", along=[1, 0, 0])

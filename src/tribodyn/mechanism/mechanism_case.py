@@ -356,6 +356,11 @@ class MechanismCase(_WithElements):
             demand_known(output.body, bodies, f"outputs.{name}.body", "body")
             demand_known(output.reference, bodies, f"outputs.{name}.reference", "body")
             self._check_instants(f"outputs.{name}.at", output.at)
+            if output.follows is not None:
+                key = f"outputs.{name}.follows"
+                demand_known(output.follows, self.joints, key, "joint")
+                words = "it neither turns nor slides; name another joint"
+                demand(bool(self.joints[output.follows].kind.COORDINATES), key, words)
         for name, joint in self.joints.items():
             if joint.clearance is not None and joint.clearance.pair is not None:
                 demand_known(joint.clearance.pair, self.pairs, f"joints.{name}.clearance.pair", "pair")
@@ -392,6 +397,13 @@ class MechanismCase(_WithElements):
                 other = driven.setdefault((drive.joint, coordinate), name)
                 words = f"drive {other} has the {coordinate} of {drive.joint} already; keep {name} or {other}"
                 demand(other == name, f"drives.{name}.joint", words)
+
+    @property
+    def pushed(self) -> list[str]:
+        """Joints of motors, controllers and drives by a torque or a force, which prescribe no motion."""
+        drives = [drive.joint for drive in self.drives.values() if GIVEN[drive.gives][1] == 2]
+        elements = [keys.named_joints["joint"][0] for _, _, keys in self.elements() if keys.IS_DRIVE]
+        return list(dict.fromkeys([*drives, *elements]))
 
     def _check_loads(self) -> None:
         for name, load in self.loads.items():

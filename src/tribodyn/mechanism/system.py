@@ -38,7 +38,7 @@ from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.followed import followed, power_columns, transmitted, with_motors
+from tribodyn.mechanism.results.followed import coordinate, followed, power_columns, transmitted, with_motors
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
@@ -393,7 +393,12 @@ class MechanismSystem:
             return {}, ()
         motion = Motion(**{name: found.bodies[name] for name in MOTION})
         path = DrivePath(run.solution.t, self.case.turn)
-        columns, notes = compared(self.assembly, self.outputs, path, motion)
+
+        def moved(joint: str) -> FloatArray:
+            turns = "angle" in self.case.joints[joint].kind.COORDINATES
+            return coordinate(self.case, found.couplings, joint, "angles" if turns else "positions")
+
+        columns, notes = compared(self.assembly, self.outputs, path, motion, moved)
         if self._analysis == "kinematic":
             columns |= kinematic_columns(self.assembly, self.outputs, path.times, found.couplings)
         return columns, notes

@@ -1,28 +1,35 @@
 """Motion of the ideal counterpart of a mechanism: every joint ideal, no backlash, the same drives.
 
 Drives and joints determine it without forces, position by position. Where they leave freedoms, an output
-may depend on these; then there is no ideal value that it could be compared with.
+may depend on these. Then the counterpart follows the motion that joints had in the run: those of motors,
+controllers, drives by a torque or a force, or the one that the output names. Where that leaves the output
+free, too, there is no ideal value that it could be compared with.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tribodyn.cases.signals import AngleSignal, PositionSignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanism.assembly.assembly import Assembly
-from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.closing import CLOSES, System
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT
 from tribodyn.mechanism.assembly.output_values import Motion, Output, rotations
 from tribodyn.mechanism.assembly.passage import closes, lead, placed
 from tribodyn.mechanism.assembly.positions import DrivePath
+from tribodyn.mechanism.model.drives_and_loads import DriveKeys
 
 _STEP: Final = 1.0e-4
 """Displacement along a freedom by which outputs are tried, in units of the size or radians."""
+_AWAY: Final = 0.02
+"""Displacement to a place beside a dead centre, in the same units."""
 _PLACES: Final = 5
 """Number of times at which they are tried."""
 
@@ -37,10 +44,16 @@ class IdealOutputs:
         Of each output, shape (n_t, m) each; NaN where drives do not determine it.
     notes
         Why an output has no ideal value, in words.
+    free
+        Whether an output depends on a freedom that drives leave.
+    freedoms
+        Number of such freedoms.
     """
 
     components: tuple[FloatArray, ...]
     notes: tuple[str, ...]
+    free: tuple[bool, ...]
+    freedoms: int
 
 
 def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath) -> IdealOutputs:
@@ -59,7 +72,7 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath
     unknown = np.full((n_t, 1), np.nan)
     if assembly.strain:
         reason = "ideal joints cannot follow the drives, so outputs have no ideal value and no error"
-        return IdealOutputs((unknown,) * len(outputs), (reason,))
+        return IdealOutputs((unknown,) * len(outputs), (reason,), (False,) * len(outputs), 0)
     times, where = np.unique(path.of_drives, return_inverse=True)
     mechanism = IdealMechanism(assembly)
     states = mechanism.follow(times)
@@ -81,11 +94,15 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath
     ]
     if not known.all():
         notes.append(unreached(times, states))
-    return IdealOutputs(tuple(found), tuple(notes))
+    return IdealOutputs(tuple(found), tuple(notes), tuple(free), mechanism.freedoms)
 
 
 def compared(
-    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, motion: Motion
+    assembly: Assembly,
+    outputs: Sequence[Output],
+    path: DrivePath,
+    motion: Motion,
+    moved: Callable[[str], FloatArray],
 ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
     """Return the columns of outputs, each of shape (n_t, n_outputs), and notes.
 
@@ -99,8 +116,10 @@ def compared(
         Times of the motion, n_t of them.
     motion
         Of the mechanism with clearance.
+    moved
+        Gives the angle or the position that a joint had in the run, shape (n_t,).
     """
-    ideal = ideal_outputs(assembly, outputs, path)
+    ideal = _at_the_same_place(assembly, outputs, path, moved)
     real = [output.components(motion) for output in outputs]
     pairs = list(zip(outputs, real, ideal.components, strict=True))
     return {
@@ -108,6 +127,43 @@ def compared(
         "output_ideal": np.stack([output.value(at_ideal) for output, _, at_ideal in pairs], axis=1),
         "output_error": np.stack([output.error(*both) for output, *both in pairs], axis=1),
     }, ideal.notes
+
+
+def _at_the_same_place(
+    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, moved: Callable[[str], FloatArray]
+) -> IdealOutputs:
+    """Return ideal outputs, those that drives leave free where joints are as they were in the run."""
+    ideal = ideal_outputs(assembly, outputs, path)
+    case, components, notes = assembly.model.case, list(ideal.components), list(ideal.notes)
+    once = math.isinf(path.turn) and path.times.size > 1
+    for number, output in enumerate(outputs):
+        joints = [output.keys.follows] if output.keys.follows else case.pushed if ideal.freedoms else []
+        if not joints or not once:
+            continue
+        led = _following(assembly, path.times, {joint: moved(joint) for joint in joints})
+        anew = ideal_outputs(led, [output], path)
+        if anew.free == (False,):
+            components[number] = anew.components[0]
+            notes = [note for note in notes if not note.startswith(f"output {output.name} ")]
+            notes += [
+                f"the error of output {output.name} is that at the same place of {' and '.join(joints)}",
+                *anew.notes,
+            ]
+    return replace(ideal, components=tuple(components), notes=tuple(notes))
+
+
+def _following(assembly: Assembly, times: FloatArray, joints: Mapping[str, FloatArray]) -> Assembly:
+    """Return a mechanism in which joints are driven as they moved."""
+    case = assembly.model.case
+    drives = {name: drive for name, drive in case.drives.items() if drive.joint not in joints}
+    at, first = np.unique(times, return_index=True)
+    for joint, moved in joints.items():
+        turns = "angle" in case.joints[joint].kind.COORDINATES
+        table = {"times": tuple(at.tolist()), "values": tuple(moved[first].tolist())}
+        given = {"angle": AngleSignal(**table)} if turns else {"position": PositionSignal(**table)}
+        drives[f"as {joint} moved"] = DriveKeys(joint=joint, **given)
+    model = replace(assembly.model, case=case.model_copy(update={"drives": drives}))
+    return replace(assembly, model=model)
 
 
 class IdealMechanism:
@@ -126,6 +182,11 @@ class IdealMechanism:
         self.rank = self.system.independence()[0]
         self.system.set_rank(self.rank)
 
+    @property
+    def freedoms(self) -> int:
+        """Number of degrees of freedom that drives leave."""
+        return 6 * self.system.n - self.rank
+
     def follow(self, times: FloatArray) -> FloatArray:
         """Return the states at rising times [s], as far as the joints close, shape (n, 13 n_bodies).
 
@@ -141,8 +202,13 @@ class IdealMechanism:
     def leaves_free(self, outputs: Sequence[Output], times: FloatArray, states: FloatArray) -> list[bool]:
         """Return the outputs that drives leave free, tried at some of the positions that were reached."""
         tried = np.unique(np.linspace(0, max(len(states) - 1, 0), _PLACES).astype(int))
-        free = np.any([self._free(outputs, times[i], states[i]) for i in tried if i < len(states)], axis=0)
-        return [bool(one) for one in np.broadcast_to(free, len(outputs))]
+        free = np.zeros(len(outputs), dtype=bool)
+        for i in tried[tried < len(states)]:
+            self.put(times[i], states[i])
+            free |= self._free(outputs)
+            if i == tried[0]:
+                free |= self._free_beside(outputs)
+        return free.tolist()
 
     def put(self, t: float, state: FloatArray) -> None:
         """Put the bodies into a state at a time [s]."""
@@ -155,23 +221,36 @@ class IdealMechanism:
             self.put(times[k - 1], states[k - 1])
         return lead(self.system, float(times[k]), lambda: closes(self.system)) and closes(self.system)
 
-    def _free(self, outputs: Sequence[Output], t: float, state: FloatArray) -> NDArray[np.bool_]:
-        """Return the outputs that change along a freedom, each tried in both directions."""
-        self.put(t, state)
+    def _free(self, outputs: Sequence[Output]) -> NDArray[np.bool_]:
+        """Return the outputs that change along a freedom here, each tried in both directions."""
         system, found = self.system, np.zeros(len(outputs), dtype=bool)
-        units = np.tile(np.repeat([system.size, 1.0], 3), system.n)
         scales = np.array([1.0 if output.as_place().unit == "rad" else system.size for output in outputs])
         kept = system.position()
-        for freedom in system.freedoms(self.rank):
+        for way in self._ways():
             ends = []
             for side in (1.0, -1.0):
-                system.step(side * _STEP * units * freedom)
-                collect(system.now.bodies, state := np.zeros_like(state))
+                system.step(side * _STEP * way)
+                collect(system.now.bodies, state := np.zeros(N_STATES * system.n))
                 ends.append([output.as_place().components(motion_of(state[None])) for output in outputs])
                 system.restore(kept)
             changes = [np.max(np.abs(a - b)) / (2.0 * _STEP) for a, b in zip(*ends, strict=True)]
             found |= np.array(changes) > DEPENDENT * scales
         return found
+
+    def _free_beside(self, outputs: Sequence[Output]) -> NDArray[np.bool_]:
+        """Return the outputs that change along a freedom some way off: at a dead centre none does here."""
+        found, kept = np.zeros(len(outputs), dtype=bool), self.system.position()
+        for way in self._ways():
+            self.system.step(_AWAY * way)
+            if self.system.close() < CLOSES:
+                found |= self._free(outputs)
+            self.system.restore(kept)
+        return found
+
+    def _ways(self) -> FloatArray:
+        """Return the freedoms as changes of the bodies, shape (n, 6 n_bodies)."""
+        system = self.system
+        return np.tile(np.repeat([system.size, 1.0], 3), system.n) * system.freedoms(self.rank)
 
 
 def motion_of(states: FloatArray, forward: FloatArray | float = 1.0) -> Motion:

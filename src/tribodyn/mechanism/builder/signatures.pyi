@@ -321,6 +321,7 @@ class Signatures:
         point: Vector | None = ...,
         reference: str | None = ...,
         reference_point: Vector | None = ...,
+        follows: str | None = ...,
         along: Vector | None = ...,
         error_limit: str | None = ...,
         velocity_error_limit: str | None = ...,

@@ -63,6 +63,13 @@ class OutputKeys(ErrorKeys):
         unit="mm",
         example=POINT,
     )
+    follows: str | None = name(
+        None,
+        "joint whose motion in the run the ideal mechanism has, too; by default those of motors, controllers "
+        "and drives by a torque or a force, where drives by a motion leave the output free",
+        "",
+        example='"main"',
+    )
     along: Vector | None = vector(
         None,
         "direction of a position or velocity, axis of an angle, fixed to the reference; without it "
