@@ -42,14 +42,14 @@ EFFORT_GROUP: Final = "Effort"
 def families(dataset: xr.Dataset) -> dict[str, Family]:
     """Return the figures of a sweep by name, one for each of its key results.
 
-    How much work the points were is left out where it is not asked for by the attribute ``shown``.
+    Where they are not asked for by the attribute ``shown``, numbers that are the same at all points in the
+    digits that hold are left out, unless all are, and so is how much work the points were.
     """
     asked = str(dataset.attrs.get("shown", "")).split(",")
-    names = [
-        str(name)
-        for name, variable in dataset.data_vars.items()
-        if variable.dtype.kind == "f" and (variable.attrs.get("group") != EFFORT_GROUP or name in asked)
-    ]
+    numbers = {str(name): found for name, found in dataset.data_vars.items() if found.dtype.kind == "f"}
+    of_machine = [name for name, found in numbers.items() if found.attrs.get("group") != EFFORT_GROUP]
+    differ = [name for name in of_machine if _differs(numbers[name])] or of_machine
+    names = [name for name in numbers if name in differ or name in asked]
     return {
         name: Family(
             name=name,
@@ -60,6 +60,14 @@ def families(dataset: xr.Dataset) -> dict[str, Family]:
         )
         for name in names
     }
+
+
+def _differs(numbers: xr.DataArray) -> bool:
+    """Return whether numbers differ in the digits that hold, where there are several."""
+    values = numbers.values[np.isfinite(numbers.values)]
+    digits = int(numbers.attrs.get("digits", 0))
+    resolved = 0.05 * 10.0 ** (1 - digits) if digits else _ROUNDING
+    return values.size < 2 or bool(np.ptp(values) > resolved * np.max(np.abs(values)))
 
 
 def draw(dataset: xr.Dataset, name: str) -> Figure:

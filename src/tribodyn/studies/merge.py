@@ -64,20 +64,14 @@ def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
     return [*first, *(name for name in given if name not in first)]
 
 
-def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float], type, dict[str, str]]:
+def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float], type, dict[str, Any]]:
     """Return the values of a key result over all points; a point that failed has none."""
-    about_number = known([name], kind).get(name)
-    about = (
-        {"units": about_number.unit or "1", "long_name": about_number.label}
-        if about_number
-        else {"long_name": name}
-    )
     values = [math.nan if row.get("failure") else _number(row.get(name)) for row in rows]
-    return (
-        values,
-        float,
-        about | ({"group": about_number.group, "comment": about_number.meaning} if about_number else {}),
-    )
+    one = known([name], kind).get(name)
+    if one is None:
+        return values, float, {"long_name": name}
+    about = {"units": one.unit or "1", "long_name": one.label, "group": one.group, "comment": one.meaning}
+    return values, float, about | {"digits": 0 if one.count else one.digits}
 
 
 def _text(about_number: object) -> str:

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from tribodyn.figures import sweep
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import draw_all, figures_of
 from tribodyn.studies import Sampling, make_plan
@@ -41,7 +42,7 @@ def made_up(name: str, lost: str = "none") -> xr.Dataset:
             point.name: {
                 "failure": "boom" if LOST[lost](i) else "",
                 "contact_force_max_N": rng.normal(100.0, 10.0),
-                "of_another_law_ms": 1.0,
+                "of_another_law_ms": rng.normal(1.0, 0.1),
             }
             for i, point in enumerate(plan.points)
         },
@@ -78,4 +79,16 @@ def test_samples_that_rounding_alone_parts_are_drawn() -> None:
     dataset = made_up("samples")
     dataset["contact_force_max_N"][:] = 100.0
     dataset["contact_force_max_N"][0] = np.nextafter(100.0, 101.0)
-    figures_of(dataset)["contact_force_max_N"].draw(dataset)
+    shown = dataset.assign_attrs(shown="contact_force_max_N")
+    figures_of(shown)["contact_force_max_N"].draw(shown)
+
+
+def test_numbers_that_do_not_differ_in_the_digits_that_hold_have_no_figure():
+    values = {"moves": [1.0, 1.02, 1.04], "noise": [6190.0, 6191.0, 6190.5], "steps": [5.0, 6.0, 7.0]}
+    swept = xr.Dataset(
+        {name: ("x", np.array(numbers), {"digits": 3}) for name, numbers in values.items()},
+        {"x": [1.0, 2.0, 3.0]},
+    )
+    swept["steps"].attrs["group"] = sweep.EFFORT_GROUP
+    assert list(sweep.families(swept)) == ["moves"]
+    assert "noise" in sweep.families(swept.assign_attrs(shown="noise"))
