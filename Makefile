@@ -20,6 +20,7 @@ NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
+	@echo "make kernels     compile the kernels, if they were edited"
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make check       what takes longer: the paper in full, the manual, validation, the wheels with the README's commands"
 	@echo "make check-long  the seventh of the longest tests that is today's"
@@ -33,7 +34,7 @@ help:
 	@echo "make lock        pin all dependencies anew, with hashes (needs uv)"
 	@echo "make clean       remove .venv and everything built"
 
-demo: $(VENV)/.run
+demo: kernels
 	$(BIN)/tribodyn run vsv -o $(DEMO)
 
 assumptions: demo
@@ -117,13 +118,18 @@ clean:
 $(BIN)/python:
 	@tools/make-venv $(VENV)
 
+# Installed as they are, without what a wheel is built with.
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+EDITABLE := $(PIP) --no-build-isolation --editable packages/mebdf --editable
+
 $(VENV)/.run: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable .
+	$(PIP) "hatchling>=1.24" editables
+	$(EDITABLE) ".[compile]"
 	@touch $@
 
-$(VENV)/.dev: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable ".[sundials,surfaces,dev,docs]"
-	@touch $@ $(VENV)/.run
+$(VENV)/.dev: $(VENV)/.run
+	$(EDITABLE) ".[compile,sundials,surfaces,dev,docs]"
+	@touch $@
 
 # What tests need. Kernels are compiled on one core while pip, on the other, installs what only tests need.
 ready: $(VENV)/.run
@@ -131,12 +137,12 @@ ready: $(VENV)/.run
 	@tools/ensure-browser
 
 kernels: $(VENV)/.run
-	@tools/compile-kernels $(BIN)/python
+	@$(BIN)/python -m mebdf.compiled.make mebdf tribodyn
 
-$(VENV)/.bench: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable ".[sundials,surfaces,dev,bench]"
-	@touch $@ $(VENV)/.dev $(VENV)/.run
+$(VENV)/.bench: $(VENV)/.run
+	$(EDITABLE) ".[compile,sundials,surfaces,dev,bench]"
+	@touch $@ $(VENV)/.dev
 
-$(VENV)/.docs: pyproject.toml $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable packages/mebdf --editable ".[sundials,surfaces,docs]"
-	@touch $@ $(VENV)/.run
+$(VENV)/.docs: $(VENV)/.run
+	$(EDITABLE) ".[compile,sundials,surfaces,docs]"
+	@touch $@

@@ -56,10 +56,10 @@ def one(name: str, cycles: float) -> dict[str, Any]:
     import tribodyn as td
     from tribodyn.mechanisms.catalogue import MECHANISMS
     from tribodyn.mechanisms.results import write_run
-    from tribodyn.simulation import estimate, prepare
+    from tribodyn.simulation import estimate, first_steps
 
     given = case(name, cycles)
-    prepare(given)
+    first_steps(given)
     begin = time.process_time()
     dataset = td.simulate(given)
     with tempfile.TemporaryDirectory() as folder:

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tribodyn as td
-from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
 from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.system import system_of
@@ -31,7 +30,7 @@ def fixed_step(
     Returns times [s] and eccentricities [m].
     """
     problem = system_of(case).problem(duration)
-    call, data, memory = machine_code(problem, kernel_types(problem)), problem.data, problem.memory
+    call, data, memory = problem.functions, problem.data, problem.memory
     y, rate = problem.y0.copy(), np.empty(problem.y0.size)
     times, eccentricities = [], []
     for t in np.arange(0.0, duration, step):

@@ -517,7 +517,7 @@ def test_a_run_under_way_can_be_stopped(at: Opened, by: str) -> None:
     person.wait_until_shown({CLEARANCE: "31 um"})
 
 
-def test_while_equations_are_compiled_the_page_says_so(at: Opened) -> None:
+def test_while_the_server_works_the_page_says_so(at: Opened) -> None:
     lines: list[WebSocketRoute] = []
     runs: list[bytes] = []
 
@@ -530,12 +530,12 @@ def test_while_equations_are_compiled_the_page_says_so(at: Opened) -> None:
 
     def keep(run: bytes) -> None:
         runs.append(run)
-        words = {"type": "state", "state": "compiling", "message": "compiling the equations", "seconds": 60}
+        words = {"type": "state", "state": "loading", "message": "loading the equations", "seconds": 60}
         lines[0].send(json.dumps(words))
 
     person = at(line=line)
-    person.wait_for("server.state === 'compiling'")
-    assert person.page.locator("#state").inner_text() == "compiling the equations · about 60 s"
+    person.wait_for("server.state === 'loading'")
+    assert person.page.locator("#state").inner_text() == "loading the equations · about 60 s"
     assert person.control(CLEARANCE).is_visible()
     lines[0].send(runs[0])
     person.wait_until_shown({})
@@ -852,7 +852,7 @@ def _edit(person: Person, act: str) -> None:
     """Press a button of the dialog of the model, and wait for the run of the edited model."""
     person.page.locator(f"#{act}-model").click()
     person.page.locator("#edit").wait_for(state="hidden", timeout=SOON)
-    # Other equations may have to be compiled, which the page asks about.
+    # A long run is asked about.
     person.wait_for("!requests.awaited && (pageState.shown || !document.getElementById('ask').hidden)")
     if person.page.locator("#ask").is_visible():
         person.page.locator("#ask [data-yes]").click()

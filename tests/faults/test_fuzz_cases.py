@@ -18,7 +18,7 @@ from tribodyn.cases import keys_of
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, Stopped
 from tribodyn.mechanisms.catalogue import built_in, kinds, load_case
-from tribodyn.simulation import prepare, simulate
+from tribodyn.simulation import simulate
 
 FEW, MANY = 40, 4000
 """Examples of each test in ``make test`` and, five tests of them, in ``make test-long``."""
@@ -82,13 +82,6 @@ def tried(count, *strategies):
     return run
 
 
-@pytest.fixture(scope="module", autouse=True)
-def compiled():
-    """Have the equations of each case compiled, which may take minutes the first time."""
-    for name in built_in():
-        prepare(load_case(name))
-
-
 def outcome(*arguments):
     """Run the command in this process; return its status and what it says on stderr."""
     out, err = io.StringIO(), io.StringIO()
@@ -120,7 +113,7 @@ def run_for_a_moment(case, limit=HANGS):
     refusal = None
     try:
         brief = case.replace({"run.duration": f"{MOMENT} s", "run.output_interval": f"{MOMENT} s"})
-        with contextlib.suppress(Stopped):  # while equations are compiled that no built-in case has
+        with contextlib.suppress(Stopped):
             simulate(brief, stop=lambda: time.perf_counter() - began > PATIENCE)
     except InputError as error:
         refusal = error

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from tribodyn.cli.main import BAD_INPUT, COMMANDS, DONE
-from tribodyn.simulation import compilation
 
 NEEDED = {
     "matplotlib",
@@ -38,7 +37,6 @@ DONE_BY = {
     "show": ("show", "vsv"),
     "new": ("new", "slider-crank"),
     "check": ("check", "vsv"),
-    "compile": ("compile", "vsv"),
     "sweep": ("sweep", *VARIED),
     "find": ("find", *FOUND, "--within", "30", "--workers", "2"),
     "materials": ("materials",),
@@ -144,17 +142,6 @@ def test_commands_without_helpers_import_nothing_from_there(planted: Path, tmp_p
     script.write_text(ONE_AFTER_ANOTHER)
     status, found = imported([sys.executable, str(script), json.dumps(tried)], planted)
     assert (status, found) == (DONE, set())
-
-
-@pytest.mark.parametrize("ahead", [False, True])
-def test_processes_that_compile_import_nothing_from_there(
-    ahead: bool, planted: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(planted)
-    _log(planted).unlink(missing_ok=True)
-    with compilation._child(ahead=ahead) as child:
-        child.communicate(timeout=600)
-    assert not _log(planted).exists()
 
 
 def test_every_command_is_tried() -> None:

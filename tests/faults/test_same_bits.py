@@ -1,13 +1,14 @@
 """The same case gives the same bits in every process of a machine, and as on another processor.
 
-Machine code is made for other processors, and NumPy, OpenBLAS and the C library are kept from using what this
-processor has beyond the oldest one that they support.
+Machine code is that for other processors, or made by each process, and NumPy, OpenBLAS and the C library are
+kept from using what this processor has beyond the oldest one that they support.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +17,9 @@ import pytest
 from llvmlite.binding import get_host_cpu_features
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
+import mebdf
+import tribodyn
+from mebdf.compiled.library import LEVELS
 from tribodyn.mechanisms.catalogue import built_in, load_case
 from tribodyn.mechanisms.results import read
 from tribodyn.studies import sweep
@@ -38,7 +42,6 @@ json.dump(found | {"slider-crank": hashes}, sys.stdout)
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")
 HASHES = """
 from hashlib import sha256
-from numba.core.registry import cpu_target
 
 def hash_of(name):
     case = load_case(name)
@@ -50,13 +53,11 @@ def hash_of(name):
         digest.update(result[column].values.tobytes())
     return digest.hexdigest()
 
-processor = cpu_target.target_context.codegen().magic_tuple()[1]
-json.dump({"processor": processor} | {name: hash_of(name) for name in sys.argv[1:]}, sys.stdout)
+json.dump({name: hash_of(name) for name in sys.argv[1:]}, sys.stdout)
 """
 PARTS = """
 from hashlib import sha256
 import numpy as np
-from numba.core.registry import cpu_target
 from scipy.integrate import solve_ivp
 from mebdf import MEBDF
 from mebdf.kernels.elementary import portable
@@ -70,15 +71,8 @@ state = np.array([-3.9e-6, 6.57e-6, 6.46e-4, 1.31e-3, 3.6e-6, -2.4e-6, -2.8e-4, 
 wrench = joint_wrench(vsv_of(load_case("vsv")).joint.data(), state, omega=0.3)
 path = solve_ivp(slope, (0.0, 1.0), [1.0, 0.0], method=MEBDF, rtol=1e-6).y
 found = {name: sha256(values.tobytes()).hexdigest() for name, values in (("wrench", wrench), ("path", path))}
-processor = cpu_target.target_context.codegen().magic_tuple()[1]
-json.dump({"processor": processor} | found, sys.stdout)
+json.dump(found, sys.stdout)
 """
-AVX2 = ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")
-AVX512 = (*AVX2, "avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl")
-PROCESSORS = {"generic": (), "haswell": AVX2, "skylake-avx512": AVX512}
-"""Processors by LLVM's names, with what they need of this machine."""
-
-
 OLDEST = {
     "NPY_DISABLE_CPU_FEATURES": " ".join(name for name in __cpu_dispatch__ if __cpu_features__[name]),
     "OPENBLAS_CORETYPE": "Prescott",
@@ -97,22 +91,9 @@ def numbers(script: str, *arguments: str, **environment: str) -> dict[str, objec
     return found
 
 
-def hashes(script: str, processor: str, cache: Path, *cases: str) -> dict[str, object]:
-    """Return the hashes of a script with machine code for a processor, and libraries as on the oldest one.
-
-    Without an empty list of features numba would add all that this machine has.
-    """
-    compiled = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(cache)}
-    found = numbers(BEGIN + script, *cases, **compiled, **OLDEST)
-    assert found.pop("processor") == processor
-    return found
-
-
-def hashes_here(script: str, *cases: str) -> dict[str, object]:
-    """Return the hashes of a script with machine code for the processor of this machine."""
-    found = numbers(BEGIN + script, *cases)
-    found.pop("processor")
-    return found
+def hashes(script: str, level: str, *cases: str) -> dict[str, object]:
+    """Return the hashes of a script with machine code for a level of processors, and the oldest libraries."""
+    return numbers(BEGIN + script, *cases, TRIBODYN_LEVEL=level, **OLDEST)
 
 
 def test_what_a_process_did_before_and_its_threads_change_no_bit() -> None:
@@ -132,28 +113,9 @@ def test_one_and_two_workers_give_the_same_bits(tmp_path: Path) -> None:
     ]
 
 
-@pytest.mark.long
-def test_the_first_run_of_all_is_the_second_to_the_bit(tmp_path: Path) -> None:
-    first = numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path))
-    assert any(tmp_path.rglob("*.nbc"))
-    assert numbers(BEGIN + RUN, NUMBA_CACHE_DIR=str(tmp_path)) == first
-
-
-LIBM = ("sin", "cos", "tan", "atan", "atan2", "exp", "log", "pow", "tanh", "hypot")
-
-
-def test_code_for_another_processor_changes_no_bit_of_a_joint_and_of_the_integrator(tmp_path: Path) -> None:
-    # Whole cases take minutes to compile.
-    assert hashes(PARTS, "generic", tmp_path) == hashes_here(PARTS)
-    compiled = list(tmp_path.rglob("*.nbc"))
-    assert compiled
-    assert not [(path.name, name) for path in compiled for name in LIBM if is_called(name, path)]
-
-
-def is_called(name: str, path: Path) -> bool:
-    """Tell whether machine code names a function of the C library; its own name stands there, too."""
-    own = path.name.split("-")[0].split(".")[-1]
-    return name != own and f"\0{name}\0".encode() in path.read_bytes()
+@pytest.mark.parametrize("level", LEVELS)
+def test_code_for_another_processor_changes_no_bit_of_a_joint_and_of_the_integrator(level: str) -> None:
+    assert hashes(PARTS, level) == numbers(BEGIN + PARTS)
 
 
 FUNCTIONS = """
@@ -178,9 +140,16 @@ def test_these_libraries_do_choose_by_the_processor() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("processor", PROCESSORS)
-def test_code_for_another_processor_changes_no_bit_of_any_case(processor: str, tmp_path: Path) -> None:
-    features = get_host_cpu_features()
-    if missing := [name for name in PROCESSORS[processor] if not features.get(name, False)]:
-        pytest.skip(f"this machine has no {', '.join(missing)}")
-    assert hashes(HASHES, processor, tmp_path, *built_in()) == hashes_here(HASHES, *built_in())
+@pytest.mark.parametrize("level", LEVELS)
+def test_code_for_another_processor_changes_no_bit_of_any_case(level: str) -> None:
+    assert hashes(HASHES, level, *built_in()) == numbers(BEGIN + HASHES, *built_in())
+
+
+@pytest.mark.long
+def test_the_library_returns_the_bits_of_code_that_each_process_compiles(tmp_path: Path) -> None:
+    ignored = shutil.ignore_patterns("built", "__pycache__")
+    for package in (mebdf, tribodyn):
+        source = Path(package.__file__ or "").parent
+        shutil.copytree(source, tmp_path / source.name, ignore=ignored)
+    compiled = numbers(BEGIN + HASHES, *built_in(), PYTHONPATH=str(tmp_path))
+    assert compiled == numbers(BEGIN + HASHES, *built_in())

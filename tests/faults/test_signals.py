@@ -58,7 +58,6 @@ COMMANDS = {
     "radau": Command(["run", "journal-oil", "--solver", "radau", *ENDLESS, "-o", "out"]),
     "cvode": Command(["run", "vsv", "--solver", "cvode", *settings("run.cycles=40"), "-o", "out"]),
     "wear": Command(["run", "vsv", *settings(*WEAR), "-o", "out"]),
-    "compiling": Command(["run", "vsv", "-o", "out"], {"NUMBA_CACHE_DIR": "cache"}),
     "sweep": Command([*SWEEP, "--workers", "2", "-o", "out"]),
     "sweep here": Command([*SWEEP, "--workers", "0", "-o", "out"]),
     "report": Command(["report", "made"]),

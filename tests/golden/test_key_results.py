@@ -87,7 +87,7 @@ def bits_of() -> dict[str, str]:
     """Return what a guarantee of equal bits needs to be equal."""
     python = ".".join(platform.python_version_tuple()[:2])
     return {"machine": platform.machine(), "python": python} | {
-        name: version(name) for name in ("numpy", "scipy", "numba", "llvmlite")
+        name: version(name) for name in ("numpy", "scipy")
     }
 
 

@@ -56,7 +56,7 @@ class _Modules(Mapping[str, Command]):
 COMMANDS: Final = _Modules(
     *("run", "cases", "new", "show", "check", "sweep", "find", "contributions", "fit", "workbench"),
     *("report", "export", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
-    *("compile", "completion"),
+    "completion",
 )
 """All sub-commands: a new one is a module in ``commands`` and a name here."""
 

@@ -1,47 +1,17 @@
-"""Progress of a run: a bar on a terminal, a line every tenth elsewhere; also of the compilation."""
+"""Progress of a run: a bar on a terminal, a line every tenth elsewhere."""
 
 from __future__ import annotations
 
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Final, Protocol
+from typing import Final, Protocol
 
 from tribodyn.cli.console import Console, is_terminal
 from tribodyn.core.quoting import without_controls
-
-_MESSAGE = "compiling the equations for this machine; later runs start at once"
-
-
-@contextmanager
-def announced_compilation(note: Callable[[str], None]) -> Iterator[None]:
-    """Say so, once, when numba really compiles; functions read from its cache raise no event.
-
-    Parameters
-    ----------
-    note
-        Prints a line.
-    """
-    from numba.core import event
-
-    class Announcement(event.Listener):
-        shown = False
-
-        def on_start(self, event: Any) -> None:
-            if not self.shown:
-                self.shown = True
-                note(_MESSAGE)
-
-        def on_end(self, event: Any) -> None:
-            """Nothing to say: progress follows."""
-
-    with event.install_listener("numba:compile", Announcement()):
-        yield
-
 
 _PARTS: Final = 10
 

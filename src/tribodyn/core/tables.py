@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 
 
 class ContactTable(NamedTuple):
@@ -32,6 +32,6 @@ class ContactTable(NamedTuple):
     h_first: float
     h_last: float
     inverse_step: float
-    nodes: FloatArray
+    nodes: FloatMatrix
     energy: FloatArray
     cubics: FloatArray

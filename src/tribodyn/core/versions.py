@@ -5,7 +5,7 @@ from functools import cache
 from importlib import metadata
 from typing import Final
 
-_PACKAGES: Final = ("tribodyn", "numpy", "scipy", "numba")
+_PACKAGES: Final = ("tribodyn", "numpy", "scipy")
 
 
 # Looked up in files each time, which takes as long as some of what asks for it.

@@ -2,137 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import isfinite
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
-from tribodyn.core.remembered import Remembered
-
-
-def is_compiled(function: Callable[..., None]) -> bool:
-    """Tell whether numba compiles a function."""
-    return hasattr(function, "compile")
-
-
-_MOST: Final = 32
-"""Kinds of problems that a process remembers."""
-_types: Final[Remembered[Any]] = Remembered(_MOST)
-"""Numba's types of data and of memories, by all that they depend on."""
-_codes: Final[Remembered[tuple[object, CompiledFunctions]]] = Remembered(_MOST)
-"""Types and compiled functions, by functions and identities of types, which live as long as they are here."""
-
-
-def kernel_types(problem: Problem) -> tuple[Any, Any]:
-    """Return numba's types of data and memory, the same objects for all problems of a kind.
-
-    ``None`` and ``None`` where no function of the problem is compiled.
-    """
-    if not any(map(is_compiled, vars(problem.functions).values())):
-        return None, None
-    return type_of(problem.data), type_of(problem.memory)
-
-
-def type_of(value: Any) -> Any:
-    """Return numba's type of a number, an array, a record, or nested tuples of such.
-
-    Numba takes milliseconds, most of them for types of records and for hashes of nested types.
-    """
-    return _types.made(_structure(value), lambda: _type_of(value))
-
-
-def _structure(value: Any) -> Any:
-    """Return all that the type of a value depends on."""
-    if isinstance(value, tuple):
-        return type(value), *map(_structure, value)
-    if isinstance(value, np.ndarray | np.void):
-        flags = value.flags
-        order = flags.c_contiguous, flags.f_contiguous, flags.aligned, flags.writeable
-        return type(value), value.dtype, value.ndim, order
-    return _type_of(value)
-
-
-def _type_of(value: Any) -> Any:
-    import numba
-    from numba.core.types import BaseTuple
-
-    if isinstance(value, tuple):
-        of_tuple: Callable[..., Any] = BaseTuple.from_types
-        return of_tuple([type_of(member) for member in value], type(value))
-    typeof: Callable[[Any], Any] = numba.typeof
-    return typeof(value)
-
-
-def call(kernel: Callable[..., None], *arguments: Any) -> None:
-    """Call a ``kernel`` of :mod:`tribodyn.kernels.jit`; numba takes milliseconds to find nested types."""
-    for_python = getattr(kernel, "for_python", None)
-    (kernel if for_python is None else for_python().compile(tuple(map(type_of, arguments))))(*arguments)
-
-
-def argument_types(problem: Problem, types: tuple[Any, Any]) -> dict[str, tuple[Any, ...]]:
-    """Return numba's types of the arguments of each function of a problem, by its name.
-
-    Parameters
-    ----------
-    problem
-        The problem.
-    types
-        Of data and memory, from :func:`kernel_types`.
-    """
-    from numba import float64
-    from numba.core.types import Array
-
-    vector = float64[::1]
-    matrix = float64[:, ::1] if problem.algebra is None else vector
-    return {
-        "rhs": (float64, vector, *types, vector),
-        "jac": (float64, vector, *types, vector, matrix),
-        "enter": (float64, vector, *types),
-        "advance": (float64, float64, vector, *types),
-        "accept": (float64, vector, *types),
-        "observe": (float64, vector, *types, vector),
-        "picture": (float64, vector, *types, Array(float64, max(len(problem.field_shape), 1), "C")),
-    }
-
-
-def machine_code(problem: Problem, types: tuple[Any, Any]) -> CompiledFunctions:
-    """Return the functions of a problem compiled for the types of its data and memory.
-
-    A call of a numba function first finds out the types of its arguments, which takes 10 µs
-    for the nested data of a mechanism, more than many right-hand sides. These types never
-    change during an integration, so the compiled code is asked for once. Functions that are
-    not compiled are returned as they are.
-
-    Parameters
-    ----------
-    problem
-        The problem.
-    types
-        From :func:`kernel_types`.
-    """
-
-    def compiled() -> tuple[object, CompiledFunctions]:
-        arguments = argument_types(problem, types)
-        functions = {name: getattr(problem.functions, name) for name in arguments}
-        return types, CompiledFunctions(
-            **{
-                name: function.compile(arguments[name]) if is_compiled(function) else function
-                for name, function in functions.items()
-            }
-        )
-
-    return _codes.made(code_key(problem, types), compiled)[1]
-
-
-def code_key(problem: Problem, types: tuple[Any, Any]) -> tuple[object, ...]:
-    """Return the types on which the compiled functions of a problem depend; they have to be kept with it."""
-    algebra = problem.algebra
-    solvers = None if algebra is None else (algebra.factorise, algebra.solve)
-    return problem.functions, solvers, len(problem.field_shape), *map(id, types)
 
 
 def all_finite(values: FloatArray) -> bool:
@@ -153,7 +30,7 @@ class Binding:
     problem
         The problem; its memory is read at each call.
     functions
-        Its functions, see :func:`machine_code`.
+        Its functions.
     statistics
         Where evaluations are counted.
     """

@@ -17,7 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Floats, Problem, Solution, Statistics
 from tribodyn.integrate.base import Method, Segment, Step, VectorFunction
-from tribodyn.integrate.binding import Binding, all_finite, kernel_types, machine_code
+from tribodyn.integrate.binding import Binding, all_finite
 from tribodyn.integrate.following import Followed, take_places
 from tribodyn.integrate.patience import Patience
 from tribodyn.integrate.schedule import Schedule
@@ -124,8 +124,7 @@ class Walk:
         self.progress, self.stop = task.progress, task.stop
         self.patience = Patience(schedule)
         self.statistics = Statistics()
-        self.types = kernel_types(problem)
-        self.functions = machine_code(problem, self.types)
+        self.functions = problem.functions
         self.binding = Binding(problem, self.functions, self.statistics)
         self.t = float(schedule.edges[0])
         self.step_size = 0.0

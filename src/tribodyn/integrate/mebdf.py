@@ -17,11 +17,8 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
-from tribodyn.core.problem import LinearSolver, Problem, Solution
-from tribodyn.core.remembered import Remembered
-from tribodyn.integrate.binding import argument_types, code_key, is_compiled, kernel_types
+from tribodyn.core.problem import LinearSolver, Solution
 from tribodyn.integrate.driver import IntegrationTask, Walk
-from tribodyn.integrate.schedule import make_schedule
 
 if TYPE_CHECKING:
     from mebdf.kernels.state import Mass, MebdfState
@@ -29,14 +26,8 @@ if TYPE_CHECKING:
     from tribodyn.kernels.mebdf.drive import Marks
     from tribodyn.kernels.mebdf.own import OwnMatrix
 
-HANDED: Final = ("rhs", "jac", "advance", "accept", "observe", "picture")
-"""Functions of a problem that the compiled loop is handed, in the order of its arguments."""
 BETWEEN_LOOKS: Final = 0.1
 """Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first."""
-
-_Linked = tuple[object, Callable[..., int], tuple[Callable[..., Any] | None, ...]]
-_linked: Final[Remembered[_Linked]] = Remembered(32)
-"""Types, compiled loops and the functions that these are handed, by :func:`~.binding.code_key`."""
 
 
 class CompiledMebdf:
@@ -57,7 +48,6 @@ class _CompiledWalk(Walk):
     """One integration under way."""
 
     _loop: Callable[..., int]
-    _functions: tuple[Callable[..., Any] | None, ...]
     _own: OwnMatrix | None
     _matrix: MassMatrix | None
     _mass: Mass | None = None
@@ -66,36 +56,19 @@ class _CompiledWalk(Walk):
     _pause: NDArray[np.int64]
 
     def prepare(self) -> None:
-        """Compile, or find the compiled code; not counted as integration."""
-        from mebdf.kernels.core import resume
-        from tribodyn.kernels.mebdf.drive import AFTER_STEP, run
+        """Find the compiled code; not counted as integration."""
+        from mebdf.compiled.kernel import Kernel
+        from tribodyn.kernels.mebdf.drive import AFTER_STEP, loop
 
         self._pause = np.array([AFTER_STEP])
         self._marks = self._new_marks()
         self._matrix = self._read_mass()
-        algebra = self.problem.algebra
+        functions, algebra = self.problem.functions, self.problem.algebra
         self._own = None if algebra is None else self._new_matrix(algebra)
-        solvers = (None, None) if algebra is None else (algebra.factorise, algebra.solve)
-        handed = (getattr(self.problem.functions, name) for name in HANDED)
-        self._functions = (resume, *handed, *solvers)
-        self._in_machine_code = all(f is None or is_compiled(f) for f in self._functions)
-        if self._in_machine_code:
-            state = self._new_state(self.t, float(self.schedule.edges[-1]))
-            arrays = (self._jacobian(state), self._own, self._marks, self._pause)
-            key = code_key(self.problem, self.types)
-            _, self._loop, self._functions = _linked.made(key, lambda: self._link(arrays))
-        else:
-            self._loop = getattr(run, "py_func", run)  # with NUMBA_DISABLE_JIT=1 it is Python already
-
-    def _link(self, arrays: tuple[Any, ...]) -> _Linked:
-        """Return the loop compiled for the functions of the problem, and these as it takes them."""
-        from mebdf.kernels.core import resume
-        from tribodyn.kernels.mebdf.drive import run
-
-        signatures = _signatures(self.problem, self.types, self._own)
-        resume.compile(signatures[0].args)  # else numba would, and keep it apart from what others call
-        loop = _compiled(run, signatures, self.types, *arrays)
-        return self.types, loop, _by_address(self._functions, signatures)
+        walked = functions.advance, functions.accept, functions.observe, functions.picture
+        solvers = () if algebra is None else (algebra.factorise, algebra.solve)
+        self._loop = loop(functions.rhs, functions.jac, *walked, *solvers)
+        self._in_machine_code = isinstance(self._loop, Kernel)
 
     def pauses(self) -> AbstractContextManager[None]:
         """Have compiled code pause by the clock, whatever a step costs; Python does after every step."""
@@ -113,7 +86,7 @@ class _CompiledWalk(Walk):
         outcome = PAUSED
         while outcome == PAUSED:
             arrays = (problem.data, problem.memory, self._jacobian(state), self._own, marks, self._pause)
-            outcome = self._loop(*self._functions, state, *arrays)
+            outcome = self._loop(state, *arrays)
             if self._in_machine_code:
                 self._pause[0] = 0
             self._take_over(state, before)
@@ -264,33 +237,6 @@ class _CompiledWalk(Walk):
         return int(bad[0]), int(bad[1])
 
 
-def compile_core() -> None:
-    """Compile the core of the solver."""
-    from mebdf.kernels.core import resume
-    from mebdf.kernels.state import state_type
-
-    resume.compile(state_type().types)
-
-
-def compile_functions(problem: Problem, *names: str) -> None:
-    """Compile functions of a problem, named as in its `CompiledFunctions`; nothing is evaluated."""
-    arguments = argument_types(problem, kernel_types(problem))
-    for name in names:
-        function = getattr(problem.functions, name)
-        if is_compiled(function):
-            function.compile(arguments[name])
-
-
-def compile_loop(problem: Problem) -> None:
-    """Compile the loop over the steps of a problem and all that it calls; nothing is evaluated."""
-    walk = _CompiledWalk(IntegrationTask(problem, make_schedule(problem.t_span, (), (), ()), rtol=0.1))
-    walk.prepare()
-    functions: tuple[Any, ...] = walk._functions
-    for function in functions:
-        if function is not None:
-            function.__wrapper_address__()
-
-
 @contextmanager
 def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
     """Ask for a pause again and again, from a thread beside compiled code that ends with the block."""
@@ -309,51 +255,6 @@ def _ticking(pause: NDArray[np.int64]) -> Iterator[None]:
     finally:
         over.set()
         thread.join()
-
-
-def _signatures(problem: Problem, types: tuple[Any, Any], own: Any) -> list[Any]:
-    """Return numba's signatures of the functions that the loop calls; None where there is no function."""
-    import numba
-    from numba import void
-
-    from mebdf.kernels.state import state_type
-
-    typeof: Callable[[Any], Any] = numba.typeof
-    arguments = argument_types(problem, types)
-    found = [numba.int64(*state_type().types), *(void(*arguments[name]) for name in HANDED)]
-    if own is None:
-        return [*found, None, None]
-    entries, pivots = typeof(own.jacobian), typeof(own.pivots)
-    factorise = numba.int64(numba.float64, types[0], entries, entries, pivots)
-    return [*found, factorise, void(types[0], entries, pivots, entries)]
-
-
-def _compiled(run: Any, signatures: list[Any], types: tuple[Any, Any], *work: Any) -> Any:
-    """Return the loop compiled for the types of the problem, from numba's cache where it is there.
-
-    With the functions of a problem as ordinary arguments the loop would be compiled for each of them
-    and never found in the cache by another process.
-    """
-    import numba
-    from numba.core.types import FunctionType
-
-    from mebdf.kernels.state import state_type
-
-    typeof: Callable[[Any], Any] = numba.typeof
-    functions = [numba.none if one is None else FunctionType(one) for one in signatures]
-    return run.compile((*functions, state_type(), *types, *map(typeof, work)))
-
-
-def _by_address(functions: tuple[Any, ...], signatures: list[Any]) -> tuple[Any, ...]:
-    """Return compiled functions that know their addresses.
-
-    Of others numba looks them up whenever the loop is called, by the types of all arguments: 10 ms each time
-    for a mechanism.
-    """
-    from tribodyn.kernels.address import ByAddress
-
-    pairs = zip(functions, signatures, strict=True)
-    return tuple(None if f is None else ByAddress(f, signature) for f, signature in pairs)
 
 
 MEBDF = CompiledMebdf()

@@ -10,7 +10,7 @@ polynomial of this side.
 from __future__ import annotations
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Annotated, Any, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
@@ -50,8 +50,8 @@ class Actions(NamedTuple):
     """
 
     signals: Signals
-    terms: Any
-    segments: Any
+    terms: Annotated[Record, Term, 1]
+    segments: Annotated[Record, Segment, 1]
 
 
 @kernel

@@ -10,8 +10,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.linalg import solve_in_place
 
 _ROUNDING: Final = 2.0**-52
@@ -24,7 +24,7 @@ def product(first: Any, second: Any) -> Any:
     columns = b[:, None] if b.ndim == 1 else b
     rows = a.reshape(math.prod(a.shape[:-1]), a.shape[-1])
     out = np.empty((rows.shape[0], columns.shape[1]))
-    _multiply(np.ascontiguousarray(rows), np.ascontiguousarray(columns), out)
+    _multiply(np.require(rows, requirements=["C", "W"]), np.require(columns, requirements=["C", "W"]), out)
     return out.reshape(a.shape[:-1] + b.shape[1:])[()]
 
 
@@ -37,7 +37,7 @@ def norm(values: Any) -> float:
 def solve(matrix: FloatArray, right: FloatArray) -> FloatArray:
     """Return x of matrix x = right, (n, n) and (n,) or (n, m); not finite where the matrix is singular."""
     columns = right.reshape(len(right), -1).copy()
-    solve_in_place(np.array(matrix, np.float64), columns, 0, columns.shape[1])
+    solve_in_place(np.array(matrix, np.float64, order="C"), columns, 0, columns.shape[1])
     return columns.reshape(right.shape)
 
 
@@ -93,7 +93,7 @@ def triangle(matrix: FloatArray, n_pivots: int, least: float) -> tuple[FloatArra
     (1965), Numer. Math. 7, 269), until what is left of each is not longer than ``least``. The order has
     shape (n_pivots,), the normals of the reflections (rank, m).
     """
-    out, order = np.array(matrix, np.float64), np.arange(n_pivots)
+    out, order = np.array(matrix, np.float64, order="C"), np.arange(n_pivots)
     normals = np.zeros((min(n_pivots, len(out)), len(out)))
     rank = _reduce(out, order, least, normals, np.empty(out.shape[1]))
     return out, order, normals[:rank]
@@ -101,18 +101,20 @@ def triangle(matrix: FloatArray, n_pivots: int, least: float) -> tuple[FloatArra
 
 def cholesky(matrix: FloatArray) -> FloatArray:
     """Return the lower triangle L (n, n) of a symmetric positive definite matrix L Lᵀ."""
-    out = np.tril(matrix)
+    out = np.array(np.tril(matrix), order="C")
     _factorise(out)
     return out
 
 
 def reflect(normals: FloatArray, columns: FloatArray) -> None:
     """Apply reflections (k, m) to columns (m, n) in place, the first of them first."""
-    _reflect(normals, columns, np.empty(columns.shape[1]))
+    whole = np.require(columns, requirements="C")
+    _reflect(np.require(normals, requirements=["C", "W"]), whole, np.empty(columns.shape[1]))
+    columns[...] = whole
 
 
-@kernel
-def _multiply(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+@entry
+def _multiply(a: FloatMatrix, b: FloatMatrix, out: FloatMatrix) -> None:
     for i in range(a.shape[0]):
         for j in range(b.shape[1]):
             out[i, j] = 0.0
@@ -123,8 +125,8 @@ def _multiply(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
                     out[i, j] += factor * b[k, j]
 
 
-@kernel
-def _factorise(a: FloatArray) -> None:
+@entry
+def _factorise(a: FloatMatrix) -> None:
     """Cholesky's factorisation in place of the lower triangle; zeros that stay zero cost nothing."""
     for k in range(a.shape[0]):
         a[k, k] = math.sqrt(a[k, k])
@@ -149,14 +151,20 @@ def _reflect_once(normal: FloatArray, columns: FloatArray, first: int, across: F
             columns[i, j] -= 2.0 * normal[i] * across[j]
 
 
-@kernel
-def _reflect(normals: FloatArray, columns: FloatArray, across: FloatArray) -> None:
+@entry
+def _reflect(normals: FloatMatrix, columns: FloatMatrix, across: FloatArray) -> None:
     for k in range(normals.shape[0]):
         _reflect_once(normals[k], columns, 0, across)
 
 
-@kernel
-def _reduce(a: FloatArray, order: IntArray, least: float, normals: FloatArray, across: FloatArray) -> int:
+@entry
+def _reduce(
+    a: FloatMatrix,
+    order: IntArray,
+    least: float,
+    normals: FloatMatrix,
+    across: FloatArray,
+) -> int:
     """Make a triangle of the first columns in place; return their rank."""
     for k in range(normals.shape[0]):
         best, largest = k, -1.0
@@ -204,8 +212,8 @@ def _rotate(rows: FloatArray, p: int, q: int, c: float, s: float) -> None:
         rows[p, i], rows[q, i] = c * first - s * second, s * first + c * second
 
 
-@kernel
-def _orthogonalise(columns: FloatArray, right: FloatArray, squares: FloatArray) -> None:
+@entry
+def _orthogonalise(columns: FloatMatrix, right: FloatMatrix, squares: FloatArray) -> None:
     """Turn columns, kept as rows (n, m), in pairs until all are orthogonal; ``right`` (n, n) with them.
 
     ``squares`` (n,) is room for the squares of their lengths.

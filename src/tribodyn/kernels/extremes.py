@@ -6,31 +6,10 @@ sum that it may split. The processor's own maximum is. NaN stays NaN.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
-import numba
-from llvmlite import ir
-from numba import float64
-from numba.extending import intrinsic
+from mebdf.compiled.kernel import UNCOMPILED, Instruction
 
-
-def _builtin(name: str) -> Any:
-    """Return a function of two numbers that is an instruction of the compiler."""
-
-    @intrinsic
-    def function(typingctx: Any, a: Any, b: Any) -> Any:
-        number = ir.DoubleType()
-
-        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            types = ir.FunctionType(number, [number, number])
-            called = builder.module.declare_intrinsic(name, [number], types)
-            return builder.call(called, arguments)
-
-        return float64(float64, float64), generate
-
-    return function
-
-
-_uncompiled: bool = vars(numba.config)["DISABLE_JIT"]
-larger: Any = max if _uncompiled else _builtin("llvm.maximum")
-smaller: Any = min if _uncompiled else _builtin("llvm.minimum")
+_MODULE: Final = "tribodyn.kernels.instructions"
+larger: Final[Any] = max if UNCOMPILED else Instruction(max, _MODULE, "larger")
+smaller: Final[Any] = min if UNCOMPILED else Instruction(min, _MODULE, "smaller")

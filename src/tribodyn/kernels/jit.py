@@ -5,15 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from mebdf.compiled.cache import Sources
-from mebdf.compiled.jit import decorators
+from mebdf.compiled.kernel import UNCOMPILED, decorators
+from mebdf.compiled.library import Sources, library
 from mebdf.kernels.jit import SOURCES as SOLVER
 
 SOURCES: Final = Sources(
     Path(__file__).parents[1],
     ("kernels/**/*.py", "core/arrays.py", "core/quantities.py", "core/tables.py"),
+    listing=("tribodyn.kernels", "tribodyn.mechanism.elements"),
     below=(SOLVER,),
 )
 """Sources of the machine code: kernels, their imports from outside their package, and the solver."""
 
-entry, kernel, unlocked, inlined = decorators(SOURCES)
+entry, kernel, inlined = decorators(SOURCES)
+
+
+def made_by() -> str:
+    """Return the name of the machine code that results carry."""
+    if UNCOMPILED:
+        return "none: Python"
+    found = library(SOURCES)
+    return "compiled by this process" if found is None else found.name

@@ -9,266 +9,21 @@ In uncompiled code lanes are arrays of four numbers.
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable
 from typing import Any, Final
 
-import numba
 import numpy as np
-from llvmlite import ir
-from numba.core import cgutils, types
-from numba.core.imputils import lower_builtin
-from numba.core.typing.templates import AbstractTemplate, infer_global, signature
-from numba.extending import intrinsic, models, register_model
+
+from mebdf.compiled.kernel import UNCOMPILED, Instruction
 
 WIDTH: Final = 4
-_NUMBER: Final = ir.DoubleType()
-_VECTOR: Final = ir.VectorType(_NUMBER, WIDTH)
-_WHOLE: Final = ir.VectorType(ir.IntType(32), WIDTH)
-_INDEX: Final = ir.IntType(64)
-_ROW: Final = 8
-"""Numbers in a row of the array that :func:`rows` reads."""
+ROW: Final = 8
+"""Numbers in a row of the array that ``rows`` reads."""
 
 
-class _Lanes(types.Type):
-    """Numba's type of four numbers in a register."""
-
-    def __init__(self) -> None:
-        super().__init__(name=f"float64x{WIDTH}")
-
-
-_lanes: Final = _Lanes()
-
-
-@register_model(_Lanes)
-class _LanesModel(models.PrimitiveModel):
-    def __init__(self, manager: Any, kind: Any) -> None:
-        super().__init__(manager, kind, _VECTOR)
-
-
-def _define(symbol: Any, instruction: str) -> None:
-    """Define an operator of two lanes by an instruction of the compiler."""
-
-    @infer_global(symbol)
-    class _Template(AbstractTemplate):
-        key = symbol
-
-        def generic(self, arguments: Any, keywords: Any) -> Any:
-            return signature(_lanes, _lanes, _lanes) if tuple(arguments) == (_lanes, _lanes) else None
-
-    @lower_builtin(symbol, _lanes, _lanes)
-    def _lower(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        return getattr(builder, instruction)(*arguments)
-
-
-for _symbol, _instruction in (
-    (operator.add, "fadd"),
-    (operator.iadd, "fadd"),
-    (operator.sub, "fsub"),
-    (operator.isub, "fsub"),
-    (operator.mul, "fmul"),
-    (operator.truediv, "fdiv"),
-):
-    _define(_symbol, _instruction)
-
-
-def _address(context: Any, builder: Any, kind: Any, array: Any, place: Any) -> Any:
-    """Return the address of four numbers of an array."""
-    data = context.make_array(kind)(context, builder, array).data
-    return builder.bitcast(builder.gep(data, [place]), _VECTOR.as_pointer())
-
-
-def _read(builder: Any, address: Any) -> Any:
-    return builder.load(address, align=8)
-
-
-def _either(compiled: Any, uncompiled: Callable[..., Any]) -> Any:
-    """Return the function for compiled code, or the other where compilation is switched off."""
-    return uncompiled if vars(numba.config)["DISABLE_JIT"] else compiled
-
-
-@intrinsic
-def _load(typing: Any, array: Any, place: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        index = context.cast(builder, arguments[1], called.args[1], types.int64)
-        return _read(builder, _address(context, builder, called.args[0], arguments[0], index))
-
-    return _lanes(array, place), generate
-
-
-@intrinsic
-def _store(typing: Any, array: Any, place: Any, lanes: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        index = context.cast(builder, arguments[1], called.args[1], types.int64)
-        address = _address(context, builder, called.args[0], arguments[0], index)
-        builder.store(arguments[2], address, align=8)
-        return context.get_dummy_value()
-
-    return types.void(array, place, lanes), generate
-
-
-@intrinsic
-def _zeros(typing: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        return ir.Constant(_VECTOR, [0.0] * WIDTH)
-
-    return _lanes(), generate
-
-
-@intrinsic
-def _spread(typing: Any, number: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), arguments[0], _INDEX(0))
-        return _shuffled(builder, (0,) * WIDTH, first, first)
-
-    return _lanes(types.float64), generate
-
-
-def _called(name: str, builder: Any, arguments: Any) -> Any:
-    """Return the result of an instruction of the compiler for each lane alone."""
-    kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(arguments))
-    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
-    return builder.call(function, arguments)
-
-
-def _of_one(name: str) -> Any:
-    """Return a function of lanes that is an instruction of the compiler."""
-
-    @intrinsic
-    def _function(typing: Any, lanes: Any) -> Any:
-        def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-            return _called(name, builder, arguments)
-
-        return _lanes(_lanes), generate
-
-    return _function
-
-
-def _of_two(name: str) -> Any:
-    """Return the same of two."""
-
-    @intrinsic
-    def _function(typing: Any, a: Any, b: Any) -> Any:
-        def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-            return _called(name, builder, arguments)
-
-        return _lanes(_lanes, _lanes), generate
-
-    return _function
-
-
-@intrinsic
-def _above(typing: Any, a: Any, b: Any, x: Any, y: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        is_above = builder.fcmp_ordered(">", arguments[0], arguments[1])
-        return builder.select(is_above, arguments[2], arguments[3])
-
-    return _lanes(_lanes, _lanes, _lanes, _lanes), generate
-
-
-@intrinsic
-def _parts(typing: Any, lanes: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        numbers = [builder.extract_element(arguments[0], _INDEX(k)) for k in range(WIDTH)]
-        return context.make_tuple(builder, called.return_type, numbers)
-
-    return types.UniTuple(types.float64, WIDTH)(lanes), generate
-
-
-@intrinsic
-def _total(typing: Any, lanes: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        numbers = [builder.extract_element(arguments[0], _INDEX(k)) for k in range(WIDTH)]
-        return builder.fadd(builder.fadd(numbers[0], numbers[1]), builder.fadd(numbers[2], numbers[3]))
-
-    return types.float64(lanes), generate
-
-
-@intrinsic
-def _totals(typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        columns = _transposed(builder, list(arguments))
-        return builder.fadd(builder.fadd(*columns[:2]), builder.fadd(*columns[2:]))
-
-    return _lanes(_lanes, _lanes, _lanes, _lanes), generate
-
-
-def _shuffled(builder: Any, order: tuple[int, ...], a: Any, b: Any) -> Any:
-    return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), list(order)))
-
-
-def _places(builder: Any, numbers: Any) -> list[Any]:
-    """Return the whole numbers in four lanes, none of them negative, as indices."""
-    whole = builder.fptosi(numbers, _WHOLE)
-    return [builder.zext(builder.extract_element(whole, _INDEX(k)), _INDEX) for k in range(WIDTH)]
-
-
-@intrinsic
-def _store_places(typing: Any, array: Any, place: Any, numbers: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        index = context.cast(builder, arguments[1], called.args[1], types.int64)
-        address = _address(context, builder, called.args[0], arguments[0], index)
-        whole = builder.fptosi(arguments[2], _WHOLE)
-        builder.store(whole, builder.bitcast(address, _WHOLE.as_pointer()), align=8)
-        return context.get_dummy_value()
-
-    return types.void(array, place, numbers), generate
-
-
-def _stored_places(context: Any, builder: Any, kinds: Any, arguments: Any) -> list[Any]:
-    """Return the indices that were stored in the second array at the place that is the third argument."""
-    index = context.cast(builder, arguments[2], kinds[2], types.int64)
-    address = _address(context, builder, kinds[1], arguments[1], index)
-    first = builder.bitcast(address, ir.IntType(32).as_pointer())
-    return [builder.zext(builder.load(builder.gep(first, [_INDEX(k)])), _INDEX) for k in range(WIDTH)]
-
-
-@intrinsic
-def _entries_at(typing: Any, array: Any, places: Any, place: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        data = context.make_array(called.args[0])(context, builder, arguments[0]).data
-        found = ir.Constant(_VECTOR, ir.Undefined)
-        for k, at in enumerate(_stored_places(context, builder, called.args, arguments)):
-            found = builder.insert_element(found, builder.load(builder.gep(data, [at])), _INDEX(k))
-        return found
-
-    return _lanes(array, places, place), generate
-
-
-def _transposed(builder: Any, parts: list[Any]) -> list[Any]:
-    """Return the columns of a matrix of four rows of four numbers."""
-    low = [_shuffled(builder, (0, 4, 2, 6), a, b) for a, b in (parts[:2], parts[2:])]
-    high = [_shuffled(builder, (1, 5, 3, 7), a, b) for a, b in (parts[:2], parts[2:])]
-    first, last = (0, 1, 4, 5), (2, 3, 6, 7)
-    return [_shuffled(builder, order, *pair) for order in (first, last) for pair in (low, high)]
-
-
-def _rows_from(context: Any, builder: Any, called: Any, array: Any, places: list[Any]) -> Any:
-    """Return the columns of four rows of a table."""
-    starts = [builder.mul(place, _INDEX(_ROW)) for place in places]
-    columns: list[Any] = []
-    for half in (0, WIDTH):
-        parts = [builder.add(start, _INDEX(half)) for start in starts]
-        addresses = [_address(context, builder, called.args[0], array, part) for part in parts]
-        columns += _transposed(builder, [_read(builder, address) for address in addresses])
-    return context.make_tuple(builder, called.return_type, columns)
-
-
-@intrinsic
-def _rows(typing: Any, array: Any, numbers: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        return _rows_from(context, builder, called, arguments[0], _places(builder, arguments[1]))
-
-    return types.UniTuple(_lanes, _ROW)(array, numbers), generate
-
-
-@intrinsic
-def _rows_at(typing: Any, array: Any, places: Any, place: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        stored = _stored_places(context, builder, called.args, arguments)
-        return _rows_from(context, builder, called, arguments[0], stored)
-
-    return types.UniTuple(_lanes, _ROW)(array, places, place), generate
+def _either(name: str, uncompiled: Callable[..., Any]) -> Any:
+    """Return a function that is an instruction in compiled code."""
+    return uncompiled if UNCOMPILED else Instruction(uncompiled, "tribodyn.kernels.lane_instructions", name)
 
 
 def _put(array: Any, place: int, lanes: Any) -> None:
@@ -280,39 +35,39 @@ def _named(places: Any, place: int) -> Any:
 
 
 def _table_rows(array: Any, numbers: Any) -> Any:
-    return tuple(array.reshape(-1, _ROW)[numbers].T)
+    return tuple(array.reshape(-1, ROW)[numbers].T)
 
 
-load: Final = _either(_load, lambda array, place: array.reshape(-1)[place : place + WIDTH].copy())
+load: Final = _either("load", lambda array, place: array.reshape(-1)[place : place + WIDTH].copy())
 """Return the four numbers of an array from ``place`` on."""
-store: Final = _either(_store, _put)
+store: Final = _either("store", _put)
 """Write lanes into an array, from ``place`` on."""
-zeros: Final = _either(_zeros, lambda: np.zeros(WIDTH))
+zeros: Final = _either("zeros", lambda: np.zeros(WIDTH))
 """Return four zeros, with which sums begin."""
-spread: Final = _either(_spread, lambda number: np.full(WIDTH, number))
+spread: Final = _either("spread", lambda number: np.full(WIDTH, number))
 """Return a number in all lanes."""
-square_root: Final = _either(_of_one("sqrt"), np.sqrt)
-absolute: Final = _either(_of_one("fabs"), np.abs)
-floor: Final = _either(_of_one("floor"), np.floor)
-larger: Final = _either(_of_two("maximum"), lambda a, b: np.maximum(a, b))
-smaller: Final = _either(_of_two("minimum"), lambda a, b: np.minimum(a, b))
+square_root: Final = _either("square_root", np.sqrt)
+absolute: Final = _either("absolute", np.abs)
+floor: Final = _either("floor", np.floor)
+larger: Final = _either("larger", lambda a, b: np.maximum(a, b))
+smaller: Final = _either("smaller", lambda a, b: np.minimum(a, b))
 """Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none."""
-above: Final = _either(_above, lambda a, b, x, y: np.where(a > b, x, y))
+above: Final = _either("above", lambda a, b, x, y: np.where(a > b, x, y))
 """Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number."""
-store_places: Final = _either(_store_places, _put)
+store_places: Final = _either("store_places", _put)
 """Write whole numbers in lanes, none of them negative, into an array from ``place`` on, for what follows.
 
 Read from there they are at hand sooner than from lanes; the array says nothing else about them.
 """
-entries_at: Final = _either(_entries_at, lambda array, places, place: array[_named(places, place)])
+entries_at: Final = _either("entries_at", lambda array, places, place: array[_named(places, place)])
 """Return the entries of an array that the numbers name that ``store_places`` wrote into ``places``."""
-rows_at: Final = _either(_rows_at, lambda array, places, place: _table_rows(array, _named(places, place)))
+rows_at: Final = _either("rows_at", lambda array, places, place: _table_rows(array, _named(places, place)))
 """Return the result of ``rows`` for such numbers."""
-parts: Final = _either(_parts, tuple)
+parts: Final = _either("parts", tuple)
 """Return the four numbers."""
-total: Final = _either(_total, lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
+total: Final = _either("total", lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 """Return the sum of the lanes."""
-totals: Final = _either(_totals, lambda a, b, c, d: np.array([total(lanes) for lanes in (a, b, c, d)]))
+totals: Final = _either("totals", lambda a, b, c, d: np.array([total(lanes) for lanes in (a, b, c, d)]))
 """Return the sums of the lanes of four."""
-rows: Final = _either(_rows, lambda array, numbers: _table_rows(array, numbers.astype(int)))
+rows: Final = _either("rows", lambda array, numbers: _table_rows(array, numbers.astype(int)))
 """Return eight lanes: the columns of those four rows of a table of eight columns that ``numbers`` name."""

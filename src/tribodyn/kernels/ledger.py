@@ -22,7 +22,7 @@ from __future__ import annotations
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.quantities import Record, record_type
+from tribodyn.core.quantities import Record, RecordType, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import kernel
 
@@ -41,10 +41,8 @@ NEAR: Final = 0.2
 """Marks closer than this part of the next interval do not tell how the integrands bend."""
 
 
-def new_books(n_powers: int, n_forces: int, n: int, swing_of: int = NO_SWING) -> Record:
-    """Return books of ``n`` coordinates that nothing has been added to, a record of these fields.
-
-    ``swing_of`` is the number of the forces whose work that of swinging forces is a part of.
+def books_type(n_powers: int, n_forces: int, n: int) -> RecordType:
+    """Return the type of books of ``n`` coordinates.
 
     times
         Of the three marks [s], shape (3,).
@@ -62,19 +60,25 @@ def new_books(n_powers: int, n_forces: int, n: int, swing_of: int = NO_SWING) ->
         Path integrals [J], shape (n_powers + n_forces + 1,): of the powers, of the forces, and what inertia
         has taken in.
     """
-    books = new_record(
-        record_type(
-            ("times", "f8", (3,)),
-            ("powers", "f8", (3, n_powers)),
-            ("forces", "f8", (3, n, n_forces)),
-            ("motion", "f8", (2, 3, n)),
-            ("swing", "f8", (2, 2, n)),
-            ("swing_of", "i8"),
-            ("works", "f8", (n_powers + n_forces + 1,)),
-        )
+    return record_type(
+        ("times", "f8", (3,)),
+        ("powers", "f8", (3, n_powers)),
+        ("forces", "f8", (3, n, n_forces)),
+        ("motion", "f8", (2, 3, n)),
+        ("swing", "f8", (2, 2, n)),
+        ("swing_of", "i8"),
+        ("works", "f8", (n_powers + n_forces + 1,)),
     )
-    books.swing_of = swing_of
-    return books
+
+
+def new_books(books: RecordType, swing_of: int = NO_SWING) -> Record:
+    """Return books that nothing has been added to.
+
+    ``swing_of`` is the number of the forces whose work that of swinging forces is a part of.
+    """
+    empty = new_record(books)
+    empty.swing_of = swing_of
+    return empty
 
 
 @kernel

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.core.arrays import FloatMatrix
+from tribodyn.kernels.jit import entry
 
 
-@kernel
-def solve_in_place(matrix: FloatArray, rhs: FloatArray, first: int, last: int) -> None:
+@entry
+def solve_in_place(matrix: FloatMatrix, rhs: FloatMatrix, first: int, last: int) -> None:
     """Solve ``matrix x = rhs`` by Gaussian elimination with partial pivoting.
 
     Parameters

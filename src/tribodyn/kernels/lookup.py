@@ -13,7 +13,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.tables import ContactTable
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import entry, inlined
 
 
 @inlined
@@ -62,6 +62,7 @@ def last_interval(table: ContactTable) -> float:
     return float(table.nodes.shape[0])
 
 
+@entry
 @inlined
 def pressure_and_damping(table: ContactTable, h_star: float) -> tuple[float, float, float, float]:
     """Return P_k, dP_k/dh*, C and dC/dh* [Pa] at the separation ``h_star`` [1].
@@ -80,7 +81,7 @@ def pressure_and_damping(table: ContactTable, h_star: float) -> tuple[float, flo
     )
 
 
-@kernel
+@entry
 def stored_energy(table: ContactTable, h_star: float) -> float:
     """Return W_k = ∫_h*^∞ P_k dh* [Pa] at ``h_star`` [1]; times σ it is the stored energy per area [J/m²].
 

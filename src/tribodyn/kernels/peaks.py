@@ -11,11 +11,11 @@ kept apart from the rest.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import inlined, kernel
@@ -57,10 +57,10 @@ class Peaks(NamedTuple):
         Set to 1 where a sharp one is larger than before in its stretch, for whoever takes rows; shape (1,).
     """
 
-    course: Record
-    values: FloatArray
-    largest: FloatArray
-    when: FloatArray
+    course: Annotated[Record, Course]
+    values: FloatMatrix
+    largest: FloatCube
+    when: FloatCube
     risen: FloatArray
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.quantities import record_type
-from tribodyn.kernels.jit import kernel
+from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.jit import entry
 
 ROUNDING: Final = 1.0e-11
 """Share of a period before its end that counts as the beginning of the next."""
@@ -32,12 +32,12 @@ class Signals(NamedTuple):
         Times at which a table of time has a kink [s].
     """
 
-    signals: Any
-    pieces: Any
+    signals: Annotated[Record, Signal, 1]
+    pieces: Annotated[Record, Piece, 1]
     kinks: FloatArray
 
 
-@kernel
+@entry
 def evaluate(signals: Signals, number: int, x: float, within: float) -> tuple[float, float, float]:
     """Return the value of a signal at ``x`` and its first two derivatives.
 

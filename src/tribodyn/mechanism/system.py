@@ -188,10 +188,6 @@ class MechanismSystem:
         problem = sampled(problem, self.model, self.outputs)
         return replace(problem, following=following(self.model, self.period, self.output_times(duration)))
 
-    def template(self) -> Problem:
-        """Return a problem of which only the types count, to compile the equations from."""
-        return mechanism_problem.template(self.model)
-
     def start(self) -> FloatArray | None:
         """Return the state in which a run begins, shape (13 n,); None for that of the drawing.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -15,11 +14,10 @@ from tribodyn.cases.loads import Controlled, OwnFunction, with_functions
 from tribodyn.contact import OwnLaw, law_of_user
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.linear_algebra import one_thread
-from tribodyn.core.stopping import Stop, asked
+from tribodyn.core.stopping import asked
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor, ResultPart, SystemCase
-from tribodyn.simulation.compilation import compile_elsewhere, from_parent, loaded, run_loaded
 from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
@@ -49,8 +47,8 @@ def simulate(
         Called with the simulated time [s] after accepted steps, by the solver ``mebdf`` some ten times a
         second; in a wear campaign with the cycles of wear behind.
     stop
-        Asked whenever ``progress`` is called, and about once a second while equations are compiled, the start
-        is looked for and the result is checked; when true the run ends there.
+        Asked whenever ``progress`` is called, and about once a second while the start is looked for and the
+        result is checked; when true the run ends there.
     checkpoint
         File in which a wear campaign is kept after every jump, and from which it goes on if the file is
         there. It stays when the campaign is over. Other runs do not use it.
@@ -87,16 +85,11 @@ def simulate(
         If ``stop`` was true before anything was computed.
     """
     case = with_controllers(case_of(case), controllers or {})
-    repeatable = not (case.campaign_cycles or law or drive or loads or controllers)
-    # Equations do not depend on the law, and who compiles them could not import it.
-    session = _session(case) if repeatable else _prepared(case, stop)
     with asked(stop), one_thread():
         own = with_functions(case, drive, loads)
         chosen = own if law is None else _with_law(own, law)
-        session = session if chosen is case else _session(chosen)
-        session = replace(session, progress=progress, stop=stop)
-        run = partial(_simulated, session, None if checkpoint is None else Path(checkpoint))
-        return run_loaded(case, run) if repeatable else run()
+        session = replace(_session(chosen), progress=progress, stop=stop)
+        return _simulated(session, None if checkpoint is None else Path(checkpoint))
 
 
 def with_controllers(case: Case, functions: Mapping[str, OwnFunction]) -> Case:
@@ -136,27 +129,17 @@ def _session(case: Case) -> Session:
     return Session(known, mechanism, mechanism.system(known))
 
 
+def first_steps(case: Case) -> str:
+    """Take the first steps of a run, which load all that it needs; return why they failed, if they did."""
+    return _first_steps(_session(case))
+
+
 def _first_steps(session: Session) -> str:
-    """Call every compiled function that a case needs: a few steps do. Return why they failed, if they did."""
+    """Take the first steps of a run; return why they failed, if they did."""
     short = replace(session, stop=lambda: True)
     with one_thread():
         run = short.integrated(short.case.duration)
         return str(short.dataset(run, ResultPart()).attrs["failure"])
-
-
-def prepare(case: Case, stop: Stop = None) -> None:
-    """Have the equations of a case compiled, if they are not, and load them; ``stop`` as for `simulate`."""
-    _prepared(case, stop)
-
-
-def _prepared(case: Case, stop: Stop = None) -> Session:
-    """Return a case with its equations loaded and what was found on the way: assembly and start."""
-    session = _session(case)
-    with asked(stop):
-        if not loaded(case, partial(_first_steps, session)):
-            compile_elsewhere(case)
-            loaded(case, partial(_first_steps, session))
-    return session
 
 
 def estimate(case: AnyCase) -> Estimate:
@@ -165,7 +148,7 @@ def estimate(case: AnyCase) -> Estimate:
     Parameters
     ----------
     case
-        As for :func:`simulate`. Nothing is built or compiled; see the manual's page on case files for the
+        As for :func:`simulate`. Nothing is built; see the manual's page on case files for the
         accuracy.
     """
     found = case_of(case)
@@ -180,8 +163,7 @@ def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
     case
         As for :func:`simulate`. Its mechanism is put together, with the tables of its contact laws.
     deep
-        Whether its equations are compiled too, if they are not yet, its start is found and the first step
-        taken.
+        Whether its start is found and the first step taken, too.
 
     Returns
     -------
@@ -203,47 +185,10 @@ def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
         remarks = (*said.warnings, *said.notes, *estimate(case).warnings, *session.system.check())
     if not deep:
         return remarks
-    failure = _first_steps(_prepared(case))
+    failure = _first_steps(session)
     if failure not in ("", INTERRUPTED):
         raise TribodynError(f"a run fails at its first step: {failure}")
     return remarks
 
 
-def load_equations(case: Case) -> bool:
-    """Load the equations of a case if they are compiled, and return whether they are."""
-    return loaded(case, partial(_first_steps, _session(case)))
-
-
-def compile_for_parent(*, ahead: bool) -> None:
-    """Compile the case that the parent process hands over into numba's cache: the first step does.
-
-    Parameters
-    ----------
-    ahead
-        Whether to help another process, which takes these steps.
-    """
-    import gc
-
-    from mebdf.compiled.cache import share_work
-    from tribodyn.integrate.mebdf import compile_core, compile_functions, compile_loop
-    from tribodyn.kernels.jit import SOURCES
-    from tribodyn.mechanisms.catalogue import parse_case
-
-    session = _session(parse_case(from_parent(), "case"))
-    gc.disable()  # looking for cycles takes a fifth of the time, and what it would free is little
-    share_work(SOURCES)
-    template = getattr(session.system, "template", None)
-    problem = None if template is None else template()
-    # Two processes that compile the same calls wait for each other at each of them: they begin far apart.
-    if ahead and problem:
-        compile_functions(problem, "rhs", "jac", "enter", "advance")
-        compile_loop(problem)
-    elif ahead or problem:
-        compile_core()
-    if not ahead:
-        if problem:
-            compile_functions(problem, "picture", "observe", "accept")
-        _first_steps(session)
-
-
-__all__ = ["check", "compile_for_parent", "estimate", "load_equations", "prepare", "simulate"]
+__all__ = ["check", "estimate", "first_steps", "simulate"]

@@ -13,6 +13,7 @@ from tribodyn.core.problem import Problem, Solution
 from tribodyn.core.stopping import Stop, skipped
 from tribodyn.core.versions import provenance
 from tribodyn.integrate import INTERRUPTED, integrate
+from tribodyn.kernels.jit import made_by
 from tribodyn.mechanisms.mechanism_protocol import (
     FinishedRun,
     MechanismDescriptor,
@@ -82,6 +83,7 @@ class Session:
                 "kind": self.mechanism.kind,
                 "case": self.case.to_toml(),
                 **provenance(),
+                "machine_code": made_by(),
                 **run.hashes,
                 "solver": {"name": solver.name, "rtol": solver.rtol, **run.cost},
                 **part.attributes,

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
-from tribodyn.studies.job import LISTEN, Finished, SweepJob, stop_while_preparing
+from tribodyn.studies.job import LISTEN, Finished, SweepJob
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import PointOutcome, compute, failed, warm_up
+from tribodyn.studies.work import PointOutcome, compute, failed
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Security
@@ -129,40 +129,8 @@ def _quiet() -> Iterator[None]:
             logger.setLevel(level)
 
 
-def _prepare(client: Client, job: SweepJob) -> None:
-    """Let one worker of each machine fill the cache of compiled code, from which the others there read it.
-
-    Meanwhile the others import what they need.
-    """
-    from distributed.comm.addressing import get_address_host
-
-    workers = list(client.nthreads())
-    first = {get_address_host(address): address for address in workers}.values()
-    tasks = {
-        address: client.submit(
-            warm_up,
-            job.points[0].toml if address in first else "",
-            workers=[address],
-            allow_other_workers=True,
-            pure=False,
-        )
-        for address in workers
-    }
-    done: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-    for address in first:
-        tasks[address].add_done_callback(done.put)
-    left, stop = len(first), stop_while_preparing(job)
-    while left and not stop():
-        try:
-            done.get(timeout=LISTEN)
-            left -= 1
-        except queue.Empty:
-            _demand_connection(client, time.monotonic())
-
-
 def _computed(client: Client, job: SweepJob) -> Finished:
     """Yield points as they finish; what is still to be done when the job stops is called off."""
-    _prepare(client, job)
     run, own = uuid.uuid4().hex[:8], version("tribodyn")
     waiting: dict[str, tuple[Point, Future[Any]]] = {}
     done: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()

@@ -14,9 +14,7 @@ LISTEN: Final = 0.1
 """Time between two looks at whether to stop [s]."""
 _SOON: Final = 5.0
 """Time after which a user reads why workers are not ready [s]."""
-_PREPARING: Final = (
-    "preparing the workers; where the equations are not compiled yet this takes a minute or two"
-)
+_PREPARING: Final = "preparing the workers"
 
 
 @dataclass(frozen=True)

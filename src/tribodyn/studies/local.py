@@ -14,7 +14,7 @@ from tribodyn.core.versions import version
 from tribodyn.core.workers import DEATHS, DIED, UNREADY, Service, WorkerProcess
 from tribodyn.studies.job import LISTEN, Finished, SweepJob, stop_while_preparing
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import compute, failed, import_what_points_need, warm_up
+from tribodyn.studies.work import compute, failed, import_what_points_need
 
 LOST: Final = failed(DIED, final=False)
 """Outcome of a task whose worker died at every attempt."""
@@ -117,8 +117,8 @@ def started(size: int) -> Iterator[list[SweepWorker]]:
 
 
 def _prepare(worker: SweepWorker, job: SweepJob) -> None:
-    """Let one worker fill the cache of compiled code, from which the others read it."""
-    task = Task(warm_up, (job.points[0].toml,))
+    """See whether a worker can work."""
+    task = Task(import_what_points_need, ())
     for _, answer in answers([worker], [task], stop_while_preparing(job)):
         if answer is LOST:
             raise TribodynError(UNREADY)

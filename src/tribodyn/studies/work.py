@@ -102,20 +102,8 @@ def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bo
     return PointOutcome(summary, content)
 
 
-def warm_up(toml: str) -> None:
-    """Have a case's kernels compiled, if they are not, and load them.
-
-    A case that fails here fails again as a point, which then has the reason. An empty text only imports.
-    """
-    from tribodyn.mechanisms.catalogue import parse_case
-    from tribodyn.simulation import prepare
-
-    with contextlib.suppress(Exception):
-        prepare(parse_case(toml, "sweep"))
-
-
 def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
-    """Import the packages for points, and load the equations of a case if they are compiled.
+    """Import the packages for points, and load the equations of a case.
 
     Parameters
     ----------
@@ -126,11 +114,11 @@ def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
     """
     import_what_points_need()
     from tribodyn.mechanisms.catalogue import load_case, parse_case
-    from tribodyn.simulation import load_equations
+    from tribodyn.simulation import first_steps
 
     with contextlib.suppress(Exception):
         case = parse_case(toml, "sweep") if toml else load_case(name)
-        load_equations(case.replace(changes))
+        first_steps(case.replace(changes))
 
 
 def import_what_points_need() -> None:

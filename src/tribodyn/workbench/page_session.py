@@ -34,7 +34,7 @@ from tribodyn.workbench.messages import (
     parsed,
 )
 from tribodyn.workbench.series import Series, SeriesPlan, slope_of, sweep_of
-from tribodyn.workbench.server_state import COMPILING, ServerState, refusal
+from tribodyn.workbench.server_state import ServerState, refusal
 from tribodyn.workbench.variant import Origin, Variant, neighbours
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
@@ -212,8 +212,6 @@ class PageSession:
         if kept is not None:
             self._deliver(kept, request.number, frame.KEPT)
             return True
-        if not await self._is_compiled(request, variant):
-            return False
         expected = self.state.costs.expected(variant.case) or 0.0
         reason = self._why_ask(variant, expected)
         if reason and (not request.agreed or expected > self.state.rules.longest):
@@ -229,22 +227,6 @@ class PageSession:
         content = await self._made(request, variant)
         self.state.kept.keep(variant.run, variant.toml, content)
         self._deliver(content, request.number, 0)
-        return True
-
-    async def _is_compiled(self, request: RunRequest, variant: Variant) -> bool:
-        """Have the equations compiled once the user has agreed; False if the page was asked."""
-        if await self.state.are_compiled(variant):
-            return True
-        if not request.agreed:
-            words = "the equations of this case are not compiled yet: that takes about a minute, once"
-            self._ask(request, words, COMPILING)
-            return False
-        self._report_state("compiling", "compiling the equations of this case", COMPILING, request.number)
-        self.job = self.state.preparation(variant)
-        try:
-            await self.state.prepare(variant, self.job)
-        finally:
-            self.job = None
         return True
 
     def _why_ask(self, variant: Variant, expected: float) -> str:

@@ -9,7 +9,6 @@ from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any, Final
 
-from tribodyn.cases.write import Choices, choices_of
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.workbench.cost import Costs
 from tribodyn.workbench.description import description
@@ -89,8 +88,6 @@ class KeptRuns:
             del self.cases[run]
 
 
-COMPILING: Final = 60.0
-"""Time that compiling usually takes [s]."""
 _LEAST_SHARE: Final = 0.01
 """Share of a long run that counts as completed when no progress was reported."""
 OnEvent = Callable[[Mapping[str, Any]], None]
@@ -149,7 +146,6 @@ class ServerState:
     pool: WorkerPool
     rules: Rules = field(default_factory=Rules)
     costs: Costs = field(default_factory=Costs)
-    compiled: set[Choices] = field(default_factory=set)
     status: dict[str, Any] = field(default_factory=dict)
     listeners: list[Callable[[Mapping[str, Any]], None]] = field(default_factory=list)
     ready: asyncio.Event = field(default_factory=asyncio.Event)
@@ -161,17 +157,11 @@ class ServerState:
         return KeptRuns(self.rules.room)
 
     async def warm(self) -> None:
-        """Start the workers, have the equations of the case ready, and make its run in each of them."""
+        """Start the workers, and make the run of the case in each of them."""
         self._report("loading", "loading the equations of this case", 3.0)
         try:
             await self.pool.start()
             variant = self.origin.varied({})
-            if not await self.are_compiled(variant):
-                words = "compiling the equations for this machine; later starts take seconds"
-                self._report("compiling", words, COMPILING)
-                await self.prepare(variant, self.preparation(variant))
-            # Each worker loads them for itself.
-            await asyncio.gather(*(self.pool.do(self.preparation(variant)) for _ in self.pool.workers))
             await asyncio.gather(*(self._try(variant) for _ in self.pool.workers))
             self._report("ready", "", None)
         except (Failed, TribodynError, OSError) as error:
@@ -201,25 +191,6 @@ class ServerState:
         for listener in self.listeners:
             listener(self.status)
 
-    async def are_compiled(self, variant: Variant) -> bool:
-        """Return whether the equations of a case are compiled; a worker that finds them loads them."""
-        if choices_of(variant.case) in self.compiled:
-            return True
-        answer = await self.pool.do(Job({"work": "load", "case": variant.toml}, self.rules.longest))
-        if answer == b"true":
-            self.compiled.add(choices_of(variant.case))
-        return answer == b"true"
-
-    def preparation(self, variant: Variant) -> Job:
-        """Return the job that has the equations of a case compiled and loaded, as :meth:`order` does."""
-        order = {"work": "prepare", "case": variant.toml}
-        return Job(order, self.rules.longest)
-
-    async def prepare(self, variant: Variant, job: Job) -> None:
-        """Have the equations of a case compiled."""
-        await self.pool.do(job)
-        self.compiled.add(choices_of(variant.case))
-
     def order(
         self,
         variant: Variant,
@@ -237,7 +208,6 @@ class ServerState:
         content = await self.pool.do(job)
         if not variant.case.campaign_cycles:
             self.costs.note(variant.case, job.took)
-        self.compiled.add(choices_of(variant.case))
         return content
 
     @cached_property

@@ -123,21 +123,6 @@ def report(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop)
         return render(dataset, (), Path(nothing)).encode("utf-8", "replace")
 
 
-def load(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
-    """Load the equations of a case and return in JSON whether they are compiled."""
-    from tribodyn.simulation import load_equations
-
-    return json.dumps(load_equations(case)).encode()
-
-
-def prepared(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
-    """Have the equations of a case compiled, if they are not, and load them."""
-    from tribodyn.simulation import prepare
-
-    prepare(case, stop)
-    return b""
-
-
 def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     from tribodyn.simulation import simulate
 
@@ -151,8 +136,6 @@ WORK: Final = {
     "picture": picture,
     "result.nc": result,
     "report.html": report,
-    "load": load,
-    "prepare": prepared,
 }
 """All kinds of work, by name."""
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import tracemalloc
 from dataclasses import replace
 
-import numba
 import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.integrate import SOLVERS, integrate
+from tribodyn.kernels.jit import kernel
 
 RATE = 400.0
 
@@ -47,13 +47,17 @@ def jac_entries(t, y, data, memory, f, jacobian):
 def factorise(gamma, data, jacobian, factors, pivots):
     """Gaussian elimination without pivoting: multipliers, pivots, upper diagonal."""
     n = (jacobian.size + 2) // 3
-    factors[:] = -gamma * jacobian
+    for i in range(jacobian.size):
+        factors[i] = -gamma * jacobian[i]
     factors[n - 1] += 1.0
     for i in range(1, n):
         factors[n - 1 + i] += 1.0
         factors[i - 1] /= factors[n - 2 + i]
         factors[n - 1 + i] -= factors[i - 1] * factors[2 * n - 2 + i]
-    return bool(np.all(np.isfinite(factors)))
+    for i in range(factors.size):
+        if not np.isfinite(factors[i]):
+            return 0
+    return 1
 
 
 def solve(data, factors, pivots, x):
@@ -82,7 +86,7 @@ def picture(t, y, data, memory, fields):
 
 
 def chain(n, own, compiled=True, breakpoints=(0.5,)):
-    made = numba.njit if compiled else lambda function: function
+    made = kernel if compiled else lambda function: function
     jac = jac_entries if own else jac_dense
     k = np.arange(n)
     places = np.array([[*k[1:], *k, *k[:-1]], [*k[:-1], *k, *k[1:]]])

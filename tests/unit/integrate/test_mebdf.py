@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tribodyn.integrate import mebdf
 from tribodyn.kernels.mebdf.drive import AFTER_EVALUATION
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.simulation import prepare, simulate
+from tribodyn.simulation import first_steps, simulate
 
 SHORT = {
     "vsv": {"run.duration": "50 ms", "run.output_interval": "1 ms"},
@@ -56,7 +56,7 @@ def test_pauses_after_every_evaluation_change_no_bit(name: str, monkeypatch: pyt
 @pytest.mark.parametrize("solver", ["mebdf", "bdf"])
 def test_a_stop_is_heard_soon_however_long_a_step_takes(solver: str) -> None:
     case = load_case("journal-oil").replace({**SLOW, "solver.name": solver})
-    prepare(case)
+    first_steps(case)
     looks: list[float] = []
 
     def stop() -> bool:

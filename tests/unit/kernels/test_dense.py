@@ -74,3 +74,23 @@ def test_products_have_the_shapes_of_numpy() -> None:
         # Whole numbers: products and sums are exact.
         assert np.array_equal(dense.product(first, second), first @ second)
     assert dense.norm(a) == pytest.approx(np.linalg.norm(a), rel=1e-15)
+
+
+def of_columns(a: FloatArray) -> FloatArray:
+    """Return a matrix that is kept column by column and cannot be written to."""
+    columns = np.asfortranarray(a)
+    columns.flags.writeable = False
+    return columns
+
+
+def test_how_a_matrix_lies_in_memory_changes_no_bit() -> None:
+    a = matrix(4, 4, 4)
+    b = a @ a.T + np.eye(4)
+    for function in (dense.inverse, dense.svd, dense.eigh, dense.cholesky, lambda m: dense.product(m, m)):
+        np.testing.assert_array_equal(np.vstack(function(of_columns(b))), np.vstack(function(b)))
+    for rows, columns in zip(dense.triangle(a, 4, 0.0), dense.triangle(of_columns(a), 4, 0.0), strict=True):
+        np.testing.assert_array_equal(rows, columns)
+    normals, across = dense.triangle(a, 4, 0.0)[2], np.asfortranarray(b)
+    dense.reflect(of_columns(normals), across)
+    dense.reflect(normals, b)
+    np.testing.assert_array_equal(across, b)

@@ -1,4 +1,4 @@
-"""Machine code is named by all sources that it is made from, those of the solver included."""
+"""A library is known by all sources that it is made from, those of the solver included."""
 
 from __future__ import annotations
 
@@ -9,18 +9,19 @@ from pathlib import Path
 
 import pytest
 
-from mebdf.compiled import cache
+from mebdf.compiled import library
 from mebdf.kernels import jit as solver
 from tribodyn.kernels import jit
 
 ALL = {"mebdf": solver.SOURCES, "tribodyn": jit.SOURCES}
 
 
-def copied(sources: cache.Sources, folder: Path) -> cache.Sources:
+def copied(sources: library.Sources, folder: Path) -> library.Sources:
     """Return the sources in a copy of the packages."""
-    return cache.Sources(
+    return library.Sources(
         folder / sources.package.name,
         sources.patterns,
+        sources.listing,
         tuple(copied(below, folder) for below in sources.below),
     )
 
@@ -58,14 +59,14 @@ CHANGES_OF_THE_SOLVER: dict[str, Callable[[Path], object]] = {
 
 def names(folder: Path) -> dict[str, str]:
     """Return the name of the machine code of each package in a copy."""
-    return {name: cache.fingerprint(copied(sources, folder)) for name, sources in ALL.items()}
+    return {name: library.fingerprint(copied(sources, folder)) for name, sources in ALL.items()}
 
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES.keys())
 def test_a_change_of_what_is_compiled_here_changes_this_name_alone(
     copy: Path, change: Callable[[Path], object]
 ) -> None:
-    before = {name: cache.fingerprint(sources) for name, sources in ALL.items()}
+    before = {name: library.fingerprint(sources) for name, sources in ALL.items()}
     append("tribodyn/core/errors.py")(copy)
     assert names(copy) == before
     change(copy)
@@ -86,7 +87,7 @@ def test_a_change_of_the_solver_changes_both_names(copy: Path, change: Callable[
 
 
 @pytest.mark.parametrize("sources", ALL.values(), ids=ALL.keys())
-def test_what_is_compiled_imports_nothing_that_the_name_does_not_cover(sources: cache.Sources) -> None:
+def test_what_is_compiled_imports_nothing_that_the_name_does_not_cover(sources: library.Sources) -> None:
     covered = {path for _, path in sources.files()}
     imported = {
         module

@@ -200,7 +200,7 @@ def test_a_contact_law_of_the_manual_takes_one_file_and_one_line(tmp_path: Path)
 def test_a_command_takes_one_file_and_one_name(tmp_path: Path) -> None:
     folder = copy_of_package(tmp_path) / "cli"
     (folder / "commands" / "hello.py").write_text(COMMAND, encoding="utf-8")
-    insert(folder / "main.py", '    *("compile", "completion"),\n', '    "hello",\n')
+    insert(folder / "main.py", '    "completion",\n', '    "hello",\n')
     run(tmp_path, "from tribodyn.cli.main import main; import sys; sys.exit(main(['hello']))")
     run(tmp_path, "from tribodyn.cli.main import main; import sys; sys.exit(main(['cases']))")
 

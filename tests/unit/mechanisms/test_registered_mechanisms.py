@@ -11,8 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from mebdf.compiled.cache import folder
-from tribodyn.kernels.jit import SOLVER, SOURCES
 from tribodyn.mechanisms.catalogue import MECHANISMS
 
 HERE = Path(__file__).parent
@@ -85,26 +83,12 @@ ALL = (
 
 
 @pytest.fixture(scope="module")
-def machine_code(package: Path) -> Path:
-    """Return a place with a copy of the machine code: types of the disc mean nothing to other processes."""
-    place = package / "cache"
-    for sources in (SOLVER, SOURCES):
-        own = place / sources.package.name
-        if (known := folder(sources)) is not None:
-            shutil.copytree(known, own / known.name)
-        own.mkdir(parents=True, exist_ok=True)
-        own.chmod(0o700)
-    place.chmod(0o700)
-    return place
-
-
-@pytest.fixture(scope="module")
-def said(package: Path, machine_code: Path) -> str:
+def said(package: Path) -> str:
     """Return what all commands, given in one process, print."""
     done = subprocess.run(
         [sys.executable, "-c", ALL, json.dumps(COMMANDS)],
         cwd=package,
-        env=os.environ | {"PYTHONPATH": str(package), "NUMBA_CACHE_DIR": str(machine_code)},
+        env=os.environ | {"PYTHONPATH": str(package)},
         capture_output=True,
         text=True,
     )

@@ -149,11 +149,11 @@ def test_pickled_objects_are_not_loaded(tmp_path):
 def test_other_versions_are_told(worn, tmp_path, monkeypatch):
     path = tmp_path / "checkpoint.npz"
     versions = checkpoint.provenance()
-    monkeypatch.setattr(checkpoint, "provenance", lambda: versions | {"numba_version": "0.1"})
+    monkeypatch.setattr(checkpoint, "provenance", lambda: versions | {"scipy_version": "0.1"})
     checkpoint.write(path, worn, CASE)
     monkeypatch.undo()
     _, told = checkpoint.read(path, CASE, SHAPE, 8, OF_CYCLE)
-    assert told == ["The campaign was begun with numba 0.1: its later cycles were computed with others."]
+    assert told == ["The campaign was begun with scipy 0.1: its later cycles were computed with others."]
 
 
 def test_another_format_is_refused(worn, tmp_path, monkeypatch):

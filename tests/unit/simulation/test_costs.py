@@ -17,7 +17,7 @@ from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import MECHANISMS, built_in
 from tribodyn.mechanisms.workload import Workload
-from tribodyn.simulation import estimate, prepare
+from tribodyn.simulation import estimate, first_steps
 
 PEAK = """
 lines = pathlib.Path("/proc/self/status").read_text().splitlines()
@@ -29,9 +29,9 @@ MEASURE = f"""
 import json, pathlib, sys, tempfile, time
 import tribodyn as td
 from tribodyn.mechanisms.results import write_run
-from tribodyn.simulation import prepare
+from tribodyn.simulation import first_steps
 case = td.load_case(sys.argv[1], json.loads(sys.argv[2]))
-prepare(case)
+first_steps(case)
 begin = time.process_time()
 dataset = td.simulate(case)
 with tempfile.TemporaryDirectory() as folder:
@@ -83,7 +83,7 @@ def work_of(case: Case) -> Workload:
 def measured(name: str, changes: Changes) -> dict[str, float]:
     """Return what a run takes; its equations are compiled before."""
     case = td.load_case(name, changes)
-    prepare(case)
+    first_steps(case)
     command = [sys.executable, "-W", "ignore", "-c", MEASURE, name, json.dumps(changes)]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     found: dict[str, float] = json.loads(done.stdout)
@@ -202,7 +202,7 @@ def test_output_times_by_default_are_limited_too(length: Changes) -> None:
 
 def processor_time(case: Case) -> float:
     """Return the least processor time of three runs of a case [s]."""
-    prepare(case)
+    first_steps(case)
     times = []
     for _ in range(3):
         begin = time.process_time()

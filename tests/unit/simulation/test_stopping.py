@@ -8,7 +8,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases import Case
 from tribodyn.core.errors import Stopped
-from tribodyn.simulation import prepare
+from tribodyn.simulation import first_steps
 
 FINE = {
     "vsv": {"run.duration": "20 ms", "solver.grid.theta": 1024, "solver.grid.z": 64},
@@ -34,7 +34,7 @@ class Caller:
 def case(request: pytest.FixtureRequest) -> Case:
     """Return a case whose equations are loaded."""
     found = td.load_case(request.param).replace(FINE[request.param])
-    prepare(found)
+    first_steps(found)
     return found
 
 

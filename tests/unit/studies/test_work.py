@@ -4,7 +4,6 @@ from typing import Any
 
 import pytest
 
-import tribodyn.simulation
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.netcdf import dataset_of
 from tribodyn.studies import work
@@ -33,19 +32,6 @@ def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
     assert outcome.failure
     assert outcome.final
     assert outcome.result
-
-
-def test_warming_up_prepares_the_case_and_never_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    prepared = []
-
-    def prepare(case: Any) -> None:
-        prepared.append(case.to_toml())
-        raise ZeroDivisionError
-
-    monkeypatch.setattr(tribodyn.simulation, "prepare", prepare)
-    work.warm_up("nonsense")
-    work.warm_up(TOML)
-    assert prepared == [TOML]
 
 
 def test_a_result_is_staged_where_there_is_a_place_and_returned_where_not(

@@ -47,9 +47,9 @@ class Pretending(WorkerPool):
         Orders that came to their end, and those that did not.
     """
 
-    def __init__(self, seconds: float = 0.0, compiled: bool = True) -> None:
+    def __init__(self, seconds: float = 0.0) -> None:
         super().__init__(1, Limits())
-        self.seconds, self.compiled = seconds, compiled
+        self.seconds = seconds
         self.made: list[Mapping[str, Any]] = []
         self.given_up: list[Mapping[str, Any]] = []
 
@@ -60,11 +60,6 @@ class Pretending(WorkerPool):
         self._threads.shutdown()
 
     async def do(self, job: Job) -> bytes:
-        if job.order["work"] == "load":
-            return json.dumps(self.compiled).encode()
-        if job.order["work"] == "prepare":
-            self.compiled = True
-            return b""
         asyncio.get_running_loop().call_later(self.seconds, job.settle, self._content(job))
         try:
             content = await job.answer

@@ -207,18 +207,12 @@ async def test_the_case_that_the_workbench_opens_is_run_without_a_question() -> 
 
 
 @in_loop
-async def test_a_wear_campaign_and_equations_to_compile_are_asked_about() -> None:
+async def test_a_wear_campaign_is_asked_about() -> None:
     pool = Pretending()
     async with hosting(pool) as host:
         page = await host.greeted()
         await page.run(1, {"wear.cycles": "100000"}, rest=True)
         assert "wear campaign" in (await page.until("ask"))["message"]
-        pool.compiled = False
-        await page.run(2, {"mechanism.formulation": "paper"}, rest=True)
-        assert "not compiled" in (await page.until("ask"))["message"]
-        await page.run(3, {"mechanism.formulation": "paper"}, rest=True, agreed=True)
-        assert (await page.until("state"))["state"] == "compiling"
-        assert (await page.picture()).number == 3
 
 
 @in_loop

@@ -34,19 +34,6 @@ class Slow(Pretending):
 
 
 @in_loop
-async def test_equations_are_compiled_before_a_run_is_made() -> None:
-    pool = Noting(compiled=False)
-    async with hosting(pool) as host:
-        page = await host.open()
-        told = await page.until("state")
-        while told["state"] != "ready":
-            assert told["state"] in ("loading", "compiling")
-            told = await page.until("state")
-    assert pool.asked[:2] == ["load", "prepare"]
-    assert pool.asked[-1] == "picture"
-
-
-@in_loop
 async def test_what_a_long_case_takes_is_known_without_running_it_to_its_end() -> None:
     async with hosting(Slow()) as host:
         page = await host.greeted()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,3 +12,8 @@ FloatArray: TypeAlias = NDArray[np.float64]
 
 IntArray: TypeAlias = NDArray[np.int64]
 """Array of integers."""
+
+FloatMatrix: TypeAlias = Annotated[FloatArray, 2]
+FloatCube: TypeAlias = Annotated[FloatArray, 3]
+IntMatrix: TypeAlias = Annotated[IntArray, 2]
+"""Arrays with two and three dimensions; where compiled code is called, the others have one."""

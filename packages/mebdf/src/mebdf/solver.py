@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any, Final
 from warnings import warn
 
@@ -46,7 +45,7 @@ from mebdf.kernels.phases import (
     NEED_SOLUTION,
     STEP_ACCEPTED,
 )
-from mebdf.kernels.state import HISTORY, F, Y, new_state, state_type
+from mebdf.kernels.state import HISTORY, F, Y, new_state
 from mebdf.mass import LARGEST, MassMatrix, read_mass, with_index
 from mebdf.reasons import reason
 
@@ -180,7 +179,6 @@ class MEBDF(OdeSolver):
         self._jump: FloatArray | None = None
         self._before_jump: FloatArray | None = None
         self._state = self._new_state(starting_step(first_step, t0, t_bound))
-        self._resume = _machine_code()
 
     def _new_state(self, first_step: float) -> entry.MebdfState:
         """Begin at the present time, up to the next breakpoint or the end."""
@@ -297,10 +295,11 @@ class MEBDF(OdeSolver):
 
     def _core_step(self) -> int:
         """Evaluate for the core until it has accepted a step or given up; return which."""
-        state, core, fun = self._state, self._resume, self.fun_single
+        state, fun = self._state, self.fun_single
         rows = state.rows
         kink = self._ends[0] if len(self._ends) > 1 else None
-        while (request := core(*state)) not in ENDS_OF_STEP:
+        request: int
+        while (request := resume(*state)) not in ENDS_OF_STEP:
             t, y = state.number("t_eval"), rows[Y]
             if t == kink:
                 t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
@@ -361,10 +360,3 @@ def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y:
         rows[entry.DELTA] = algebra.solve(rows[entry.RESIDUAL])
     elif request == NEED_MAGNITUDE:
         rows[entry.MAGNITUDE] = algebra.magnitude(scaled, y)
-
-
-@cache
-def _machine_code() -> Callable[..., int]:
-    """Return the core compiled for its only types: called directly it need not find them out each time."""
-    code: Callable[..., int] = resume.compile(state_type().types)
-    return code

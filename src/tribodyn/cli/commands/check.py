@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.progress import announced_compilation
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
@@ -24,7 +23,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--deep",
         action="store_true",
-        help="also compile the equations, find the start of the run and take its first step",
+        help="also find the start of the run and take its first step",
     )
 
 
@@ -35,7 +34,7 @@ def execute(args: Namespace) -> int:
     console = Console.of(args)
     case = chosen_case(args)
     SOLVERS[str(case.at("solver.name"))].prepare()
-    remarks, taken = _try(case, args.deep, console)
+    remarks, taken = _try(case, args.deep)
     cycles = case.campaign_cycles
     length = f"{cycles} cycles of wear" if cycles else f"{case.duration:.6g} s"
     tried = "; its start was found and the first step taken" if args.deep else ""
@@ -49,8 +48,7 @@ def execute(args: Namespace) -> int:
     return 0
 
 
-def _try(case: Case, deep: bool, console: Console) -> tuple[Sequence[str], Estimate]:
-    with announced_compilation(console.note):
-        from tribodyn.simulation import check, estimate
+def _try(case: Case, deep: bool) -> tuple[Sequence[str], Estimate]:
+    from tribodyn.simulation import check, estimate
 
-        return check(case, deep=deep), estimate(case)
+    return check(case, deep=deep), estimate(case)

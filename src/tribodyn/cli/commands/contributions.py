@@ -6,7 +6,6 @@ import math
 import os
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable
-from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -14,7 +13,6 @@ from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import FIGURES, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
-from tribodyn.cli.progress import announced_compilation
 
 if TYPE_CHECKING:
     from tribodyn.studies import OutputShares
@@ -44,9 +42,8 @@ def execute(args: Namespace) -> int:
     directory = OutputDirectory(
         f"contributions-{Path(args.case).stem}" if args.output is None else args.output
     )
-    with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
+    with directory.reserved(), Interruption(_STOPPING) as stop:
         last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
-        stack.enter_context(announced_compilation(console.note))
         watcher = Watcher(stop=stop, note=console.note)
         found = contributions(case, directory=directory.path, workers=args.workers, watcher=watcher)
         if args.figures:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
-from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -13,7 +12,6 @@ from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, withou
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
-from tribodyn.cli.progress import announced_compilation
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -73,9 +71,8 @@ def execute(args: Namespace) -> int:
         console.note(f"{until.name} is taken; {', '.join(until.others)} would match, too")
     asked = question(case, path, values, until)
     directory = OutputDirectory(f"find-{Path(args.case).stem}" if args.output is None else args.output)
-    with directory.reserved(), Interruption(_STOPPING) as stop, ExitStack() as stack:
+    with directory.reserved(), Interruption(_STOPPING) as stop:
         last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
-        stack.enter_context(announced_compilation(console.note))
         watcher = Watcher(_printer(console), stop, console.note)
         search = Search(asked, directory.path, Means(workers=args.workers, keep_results=False), watcher)
         root = search.root(args.within / 100.0)

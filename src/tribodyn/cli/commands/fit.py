@@ -11,7 +11,6 @@ from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, withou
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import last_words
-from tribodyn.cli.progress import announced_compilation
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -90,7 +89,7 @@ def execute(args: Namespace) -> int:
     last_words(
         f"interrupted; finished runs are kept in {directory.path}, from which the same command goes on"
     )
-    with directory.reserved(), announced_compilation(console.note):
+    with directory.reserved():
         experiments = [_experiment(case, typed(text)) for text in args.data]
         noise = np.concatenate([one.data.noise(0.01 * args.noise) for one in experiments])
         fit = Calibration(case, keys, experiments, noise, directory.path, console.note)

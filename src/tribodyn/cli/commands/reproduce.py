@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Final
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import last_words
-from tribodyn.cli.progress import announced_compilation
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -58,7 +57,7 @@ def execute(args: Namespace) -> int:
     console = Console.of(args)
     directory = OutputDirectory(args.output)
     last_words(f"interrupted; what was finished until then is in {os.fspath(directory.path)}")
-    with directory.reserved(), announced_compilation(console.note):
+    with directory.reserved():
         runs = Runs(note=console.note)
         for name in wanted:
             if name == ENSEMBLE:

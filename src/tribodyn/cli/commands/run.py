@@ -16,7 +16,7 @@ from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.log import stage
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
-from tribodyn.cli.progress import CYCLES, Progress, announced_compilation, progress
+from tribodyn.cli.progress import CYCLES, Progress, progress
 from tribodyn.cli.tables import in_words
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
@@ -103,7 +103,7 @@ def _kept(directory: OutputDirectory, console: Console) -> tuple[xr.Dataset, dic
 def _computed(case: Case, directory: OutputDirectory, console: Console) -> tuple[xr.Dataset, dict[str, Any]]:
     """Simulate and save; return the result and its summary."""
     with Interruption() as stop:
-        with stage("simulating, compiling included"):
+        with stage("simulating"):
             dataset = _simulate(case, directory, console, stop)
         last_words(f"aborted while saving; what stands in {os.fspath(directory.path)} is whole")
         with stage("saving"):
@@ -141,7 +141,7 @@ def _simulate(case: Case, directory: OutputDirectory, console: Console, stop: In
 
     for warning in estimate(case).warnings:
         complain(f"warning: {warning}")
-    with _progress(case, console) as shown, announced_compilation(shown.note):
+    with _progress(case, console) as shown:
         return simulate(case, progress=shown, stop=stop, checkpoint=directory.checkpoint)
 
 

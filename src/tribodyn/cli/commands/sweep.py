@@ -19,7 +19,7 @@ from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
-from tribodyn.cli.progress import POINTS, Progress, announced_compilation, progress
+from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
@@ -244,7 +244,6 @@ class _Shown:
             for warning in warnings_of(self._plan, to_do, self._means.workers):
                 complain(f"warning: {warning}")
         self._bar = self._stack.enter_context(progress(max(to_do, 1), self._console, POINTS))
-        self._stack.enter_context(announced_compilation(self._bar.note))
 
 
 def _draw(dataset: xr.Dataset, path: Path, console: Console, args: Namespace, *, points: bool) -> bool:

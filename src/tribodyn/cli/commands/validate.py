@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from tribodyn.cli.choosing import add_changes, changes, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.directory import OutputDirectory
-from tribodyn.cli.progress import announced_compilation
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -57,7 +56,7 @@ def execute(args: Namespace) -> int:
     sets = _sets(args)
     directory = None if args.output is None else OutputDirectory(args.output)
     judged = []
-    with announced_compilation(console.note), _reserved(directory):
+    with _reserved(directory):
         for one in sets:
             console.note(f"computing {one.name}")
             judged.append(Judged(one, one.run()))

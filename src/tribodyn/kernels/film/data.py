@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 
 IntArray = NDArray[np.int64]
@@ -51,9 +51,9 @@ class FlowTable(NamedTuple):
     """
 
     inverse_step: float
-    factors: FloatArray
+    factors: FloatCube
     gap_step: float
-    mean_gap: FloatArray
+    mean_gap: FloatMatrix
 
 
 Constants: Final = record_type(
@@ -111,13 +111,13 @@ class FilmData(NamedTuple):
         Factors of the rough surfaces.
     """
 
-    constants: Record
-    columns: NDArray[np.void]
+    constants: Annotated[Record, Constants]
+    columns: Annotated[Record, Column, 1]
     z_node: FloatArray
     z_face: FloatArray
-    wear_node: FloatArray
-    wear_theta: FloatArray
-    wear_z: FloatArray
+    wear_node: FloatMatrix
+    wear_theta: FloatMatrix
+    wear_z: FloatMatrix
     table: FlowTable
 
 
@@ -166,10 +166,10 @@ class FilmFields(NamedTuple):
         See :data:`ZFace`, shape (n, m + 1).
     """
 
-    columns: NDArray[np.void]
-    rows: NDArray[np.void]
-    cells: NDArray[np.void]
-    z_faces: NDArray[np.void]
+    columns: Annotated[Record, Column, 1]
+    rows: Annotated[Record, Row, 1]
+    cells: Annotated[Record, Cell, 2]
+    z_faces: Annotated[Record, ZFace, 2]
 
 
 class BandSystem(NamedTuple):
@@ -195,12 +195,12 @@ class BandSystem(NamedTuple):
         Unknowns of the band, of the border, and the column where the numbering starts, shape (3,).
     """
 
-    number: IntArray
+    number: IntMatrix
     reach: IntArray
-    band: FloatArray
-    border: FloatArray
-    corner: FloatArray
-    right: FloatArray
+    band: FloatMatrix
+    border: FloatMatrix
+    corner: FloatMatrix
+    right: FloatMatrix
     single: FloatArray
     size: IntArray
 
@@ -253,13 +253,13 @@ class FilmMemory(NamedTuple):
         See :data:`Work`.
     """
 
-    active: FlagArray
-    pressure: FloatArray
-    fill: FloatArray
-    adjoint: FloatArray
-    gradient: FloatArray
+    active: Annotated[FlagArray, 2]
+    pressure: FloatMatrix
+    fill: FloatMatrix
+    adjoint: FloatCube
+    gradient: FloatCube
     fields: FilmFields
     system: BandSystem
-    transport: FloatArray
+    transport: FloatMatrix
     amount: FloatArray
-    work: Record
+    work: Annotated[Record, Work]

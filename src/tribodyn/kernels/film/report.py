@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatMatrix
 from tribodyn.kernels.film.data import HALF_SOMMERFELD, FilmData, FilmMemory
 from tribodyn.kernels.jit import entry, kernel
 
@@ -15,7 +15,7 @@ def pressure_unit(film: FilmData) -> float:
 
 
 @entry
-def film_pressure(film: FilmData, memory: FilmMemory, pressure: FloatArray) -> None:
+def film_pressure(film: FilmData, memory: FilmMemory, pressure: FloatMatrix) -> None:
     """Fill ``pressure`` (n_z + 1, n_theta) [Pa] with the field of the last evaluation.
 
     With a groove, columns count from the groove.

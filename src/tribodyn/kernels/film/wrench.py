@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.kernels.film.adjoint import (
     couette_scale,
     fill_chart,
@@ -24,7 +24,7 @@ from tribodyn.kernels.film.jfo import filled_column, solve_transport
 from tribodyn.kernels.jit import entry, kernel
 
 
-@entry
+@kernel
 def film_wrench(film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray) -> int:
     """Fill ``out`` (5,) with (F_x, F_y, M_x, M_y, M_z) [N, N m] and return a status."""
     chart_of(y, memory.work.state)
@@ -33,7 +33,12 @@ def film_wrench(film: FilmData, memory: FilmMemory, y: FloatArray, omega: float,
 
 @entry
 def film_wrench_and_jacobian(
-    film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray, jacobian: FloatArray
+    film: FilmData,
+    memory: FilmMemory,
+    y: FloatArray,
+    omega: float,
+    out: FloatArray,
+    jacobian: FloatMatrix,
 ) -> int:
     """Fill ``out`` as :func:`film_wrench` and ``jacobian`` (5, 9) with its derivatives; return a status."""
     u = memory.work.state

@@ -7,17 +7,22 @@ axis. A node lies at −r_j (cos θ, sin θ), so that θ is the direction of the
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, Final, NamedTuple
+
+import numpy as np
 
 from mebdf.kernels.elementary import tan
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.joints.memory import JointMemory
-from tribodyn.kernels.joints.pose import PHI, D, V, W
+from tribodyn.kernels.joints.pose import PHI, D, Pose, V, W
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
+
+_JOINT: Final = np.int64(0)
+"""Number of the joint; numba would compile for a plain 0 by itself."""
 
 
 class BushingData(NamedTuple):
@@ -37,7 +42,7 @@ class BushingData(NamedTuple):
 
     clearance: float
     z: FloatArray
-    wear: FloatArray
+    wear: FloatMatrix
     surface: SurfaceData
 
     @property
@@ -61,8 +66,8 @@ def _look(joint: BushingData, memory: JointMemory, pose: Record) -> None:
     station.direction = pose.direction
 
 
-@kernel
-def wrench(joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray) -> None:
+@entry
+def wrench(joint: BushingData, memory: JointMemory, pose: Annotated[Record, Pose], out: FloatArray) -> None:
     """Fill ``out`` (6,) with the wrench on the trunnion.
 
     Parameters
@@ -78,14 +83,18 @@ def wrench(joint: BushingData, memory: JointMemory, pose: Record, out: FloatArra
     """
     scratch = memory.surface.scratch
     _look(joint, memory, pose)
-    surfaces.fill_wrench(joint.surface, 0, memory.surface)
+    surfaces.fill_wrench(joint.surface, _JOINT, memory.surface)
     for k in range(6):
         out[k] = scratch.normal[k] + scratch.friction[k]
 
 
-@kernel
+@entry
 def wrench_and_jacobian(
-    joint: BushingData, memory: JointMemory, pose: Record, out: FloatArray, jacobian: FloatArray
+    joint: BushingData,
+    memory: JointMemory,
+    pose: Annotated[Record, Pose],
+    out: FloatArray,
+    jacobian: FloatMatrix,
 ) -> None:
     """Fill ``out`` with the wrench and ``jacobian`` with its derivatives.
 
@@ -98,7 +107,7 @@ def wrench_and_jacobian(
     """
     scratch = memory.surface.scratch
     _look(joint, memory, pose)
-    surfaces.fill_wrench_and_derivatives(joint.surface, 0, memory.surface)
+    surfaces.fill_wrench_and_derivatives(joint.surface, _JOINT, memory.surface)
     clear(jacobian)
     phi, w = scratch.tilt.phi, (pose.w_x, pose.w_y)
     for i in range(6):
@@ -116,11 +125,11 @@ def wrench_and_jacobian(
         jacobian[i, W + 2] = scratch.friction_slip[i, 5]
 
 
-@kernel
-def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
+@entry
+def report(joint: BushingData, memory: JointMemory, pose: Annotated[Record, Pose]) -> None:
     """Fill the report in ``memory.scratch``, moments right-handed; arguments as for :func:`wrench`."""
     _look(joint, memory, pose)
-    surfaces.fill_report(joint.surface, 0, memory.surface)
+    surfaces.fill_report(joint.surface, _JOINT, memory.surface)
     scratch, found, out = memory.surface.scratch, memory.surface.reports[0], memory.scratch.report
     normal, rigid, friction = scratch.normal, scratch.rigid, scratch.friction
     out.F_cx, out.F_cy, out.M_jcx, out.M_jcy = normal[0], normal[1], normal[3], normal[4]
@@ -136,18 +145,22 @@ def report(joint: BushingData, memory: JointMemory, pose: Record) -> None:
 @kernel
 def slide(joint: BushingData, memory: JointMemory, h: float) -> None:
     """Let the trunnion slide for ``h`` [s] as it did at the last report: add to the sliding load."""
-    surfaces.slide(joint.surface, memory.surface, 0, h)
+    surfaces.slide(joint.surface, memory.surface, _JOINT, h)
 
 
-@kernel
-def update_entry_velocity(joint: BushingData, memory: JointMemory, pose: Record, at_start: float) -> None:
+@entry
+def update_entry_velocity(
+    joint: BushingData, memory: JointMemory, pose: Annotated[Record, Pose], at_start: float
+) -> None:
     """Let contact begin and end at the end of an accepted step; 1 ``at_start`` of a run, 0 otherwise."""
     _look(joint, memory, pose)
-    surfaces.fill_entry_velocity(joint.surface, 0, memory.surface, at_start)
+    surfaces.fill_entry_velocity(joint.surface, _JOINT, memory.surface, at_start)
 
 
-@kernel
-def pressure_field(joint: BushingData, memory: JointMemory, pose: Record, pressure: FloatArray) -> None:
+@entry
+def pressure_field(
+    joint: BushingData, memory: JointMemory, pose: Annotated[Record, Pose], pressure: FloatMatrix
+) -> None:
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa]; points have none."""
     _look(joint, memory, pose)
-    surfaces.fill_pressure(joint.surface, 0, memory.surface, pressure.reshape(pressure.size))
+    surfaces.fill_pressure(joint.surface, _JOINT, memory.surface, pressure.reshape(pressure.size))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from mebdf.kernels.elementary import hypot
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import kernel
@@ -40,10 +40,10 @@ class JointMemory(NamedTuple):
     """
 
     surface: SurfaceMemory
-    entry_velocity: FloatArray
-    sliding_load: FloatArray
-    extremes: Record
-    scratch: Record
+    entry_velocity: FloatMatrix
+    sliding_load: FloatMatrix
+    extremes: Annotated[Record, Extremes]
+    scratch: Annotated[Record, Scratch]
 
 
 def new_memory(data: SurfaceData, field_shape: tuple[int, ...], clearance: float) -> JointMemory:

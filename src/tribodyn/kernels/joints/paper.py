@@ -6,14 +6,17 @@ M_y are left-handed, all else is right-handed.
 
 from __future__ import annotations
 
-from tribodyn.core.arrays import FloatArray
+from typing import Annotated
+
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.joints.pose import F_X, F_Y, M_X, M_Y, M_Z, PHI, D, V, W
+from tribodyn.kernels.jit import entry
+from tribodyn.kernels.joints.pose import F_X, F_Y, M_X, M_Y, M_Z, PHI, D, Pose, V, W
+from tribodyn.kernels.joints.quantities import Report
 
 
-@kernel
-def fill_pose(y: FloatArray, omega: float, direction: float, pose: Record) -> None:
+@entry
+def fill_pose(y: FloatArray, omega: float, direction: float, pose: Annotated[Record, Pose]) -> None:
     """Fill ``pose`` from the states ``y`` (8,), the speed ω about Z [rad/s] and its direction."""
     pose.d_x, pose.d_y, pose.d_z = y[0], y[1], 0.0
     pose.phi_x, pose.phi_y = y[2], -y[3]
@@ -22,15 +25,15 @@ def fill_pose(y: FloatArray, omega: float, direction: float, pose: Record) -> No
     pose.direction = direction
 
 
-@kernel
+@entry
 def from_wrench(wrench: FloatArray, out: FloatArray) -> None:
     """Fill ``out`` (5,) with the paper's wrench from the joint's ``wrench`` (6,)."""
     out[0], out[1] = wrench[F_X], wrench[F_Y]
     out[2], out[3], out[4] = wrench[M_X], -wrench[M_Y], wrench[M_Z]
 
 
-@kernel
-def from_jacobian(jacobian: FloatArray, out: FloatArray) -> None:
+@entry
+def from_jacobian(jacobian: FloatMatrix, out: FloatMatrix) -> None:
     """Fill ``out`` (5, 9), derivatives in the eight states and ω, from the joint's ``jacobian`` (6, 12)."""
     rows = (F_X, F_Y, M_X, M_Y, M_Z)
     columns = (D, D + 1, PHI, PHI + 1, V, V + 1, W, W + 1, W + 2)
@@ -41,8 +44,8 @@ def from_jacobian(jacobian: FloatArray, out: FloatArray) -> None:
             out[k, m] = -entry if turned else entry
 
 
-@kernel
-def from_report(report: Record) -> None:
+@entry
+def from_report(report: Annotated[Record, Report]) -> None:
     """Turn the moments about Y of a joint's report, right-handed as the joint left it, into the paper's."""
     report.M_jcy = -report.M_jcy
     report.M_fy = -report.M_fy

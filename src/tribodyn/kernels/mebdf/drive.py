@@ -1,21 +1,25 @@
 """The loop around the MEBDF core: evaluations, and the walk over accepted steps.
 
-The compiled counterpart of ``tribodyn.integrate.driver``, with the same order of calls. The core and the
-functions of the problem are arguments. Compiled for first-class function types, whose code does not depend
-on which function it is, the loop holds none of theirs and is found in numba's cache by every later process;
-plain Python functions are served by the uncompiled loop, ``run.py_func``.
+The compiled counterpart of ``tribodyn.integrate.driver``, with the same order of calls. One source serves
+compiled problems and those in plain Python.
 """
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
-from typing import Any, Final, NamedTuple
+from dataclasses import replace
+from functools import cache
+from typing import Any, Final, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.compiled.kernel import ENTRIES, Kernel, enlisted
+from mebdf.compiled.layouts import Absent, Array, Layouts, Tuple, of_hint
 from mebdf.kernels import state as at
 from mebdf.kernels.arrays import copy
+from mebdf.kernels.core import resume
 from mebdf.kernels.history import state_at
 from mebdf.kernels.phases import (
     FAILED,
@@ -26,8 +30,8 @@ from mebdf.kernels.phases import (
     NEED_SOLUTION,
 )
 from mebdf.kernels.state import MebdfState
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel, unlocked
+from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray
+from tribodyn.kernels.jit import SOURCES, entry
 from tribodyn.kernels.mebdf.own import OwnMatrix, magnify, set_right_side, take_over, trace
 
 ENDED: Final = 0
@@ -83,122 +87,147 @@ class Marks(NamedTuple):
     is_output: NDArray[np.bool_]
     is_picture: NDArray[np.bool_]
     tolerance: FloatArray
-    rows: FloatArray
+    rows: FloatMatrix
     pictures: FloatArray
-    windows: FloatArray
+    windows: FloatMatrix
     step_times: FloatArray
-    step_rows: FloatArray
-    position: NDArray[np.int64]
-    stride: NDArray[np.int64]
+    step_rows: FloatMatrix
+    position: IntArray
+    stride: IntArray
     wanted: FloatArray
     reached: FloatArray
     end: FloatArray
 
 
-@kernel
-def _is_followed(marks: Marks, t: float) -> bool:
+@entry
+def _is_followed(
+    windows: FloatMatrix, position: IntArray, stride: IntArray, wanted: FloatArray, t: float
+) -> bool:
     """Tell whether the step that ends at ``t`` gives a row."""
-    windows, position = marks.windows, marks.position
     while windows[position[WINDOW], 1] < t:
         position[WINDOW] += 1
     if windows[position[WINDOW], 0] > t:
         return False
     position[SKIPPED] += 1
-    if position[SKIPPED] < marks.stride[0] and marks.wanted[0] == 0.0:
+    if position[SKIPPED] < stride[0] and wanted[0] == 0.0:
         return False
     position[SKIPPED] = 0
-    marks.wanted[0] = 0.0
+    wanted[0] = 0.0
     return True
 
 
-@unlocked
-def run(
-    resume: Callable[..., int],
+@cache
+def loop(
     rhs: Callable[..., None],
     jac: Callable[..., None],
     advance: Callable[..., None],
     accept: Callable[..., None],
     observe: Callable[..., None],
     picture: Callable[..., None],
-    factorise: Callable[..., int] | None,
-    solve: Callable[..., None] | None,
-    state: MebdfState,
-    data: Any,
-    memory: Any,
-    jacobian: FloatArray,
-    own: OwnMatrix | None,
-    marks: Marks,
-    pause: NDArray[np.int64],
-) -> int:
-    """Integrate until the end or until ``pause[0]``, zero for not at all; return ENDED, PAUSED or FAILED.
+    factorise: Callable[..., int] | None = None,
+    solve: Callable[..., None] | None = None,
+) -> Callable[..., int]:
+    """Return the loop over the steps of a problem with these functions, compiled if all of them are."""
 
-    Another thread may ask for the pause. Called again, the loop goes on to the same bits, for all that it
-    needs stands in its arguments.
-    """
-    record, rows, matrices, pivots, mass, places = state
-    numbers = record[0]
-    y, f, newest = rows[at.Y], rows[at.F], rows[at.HISTORY]
-    times, position, reached = marks.times, marks.position, marks.reached
-    end, tolerance = marks.end, marks.tolerance[0]
-    while True:
-        request = resume(record, rows, matrices, pivots, mass, places)
-        if request == NEED_F:
-            rhs(numbers.t_eval, y, data, memory, f)
-            if pause[0] == AFTER_EVALUATION:
+    def run(
+        state: MebdfState,
+        data: Any,
+        memory: Any,
+        jacobian: FloatArray,
+        own: OwnMatrix | None,
+        marks: Marks,
+        pause: IntArray,
+    ) -> int:
+        """Integrate until the end or until ``pause[0]``, zero for not at all; return ENDED, PAUSED or FAILED.
+
+        Another thread may ask for the pause. Called again, the loop goes on to the same bits, for all that it
+        needs stands in its arguments.
+        """
+        record, rows, matrices, pivots, mass, places = state
+        numbers = record[0]
+        y, f, newest = rows[at.Y], rows[at.F], rows[at.HISTORY]
+        times, position, reached = marks.times, marks.position, marks.reached
+        end, tolerance = marks.end, marks.tolerance[0]
+        while True:
+            request = resume(record, rows, matrices, pivots, mass, places)
+            if request == NEED_F:
+                rhs(numbers.t_eval, y, data, memory, f)
+                if pause[0] == AFTER_EVALUATION:
+                    return PAUSED
+                continue
+            if request == NEED_JACOBIAN:
+                jacobian.fill(0.0)
+                jac(numbers.t_eval, y, data, memory, f, jacobian)
+                if own is not None:
+                    numbers.finite = take_over(own, numbers.back)
+                if pause[0] == AFTER_EVALUATION:
+                    return PAUSED
+                continue
+            if request == FAILED:
+                return FAILED
+            if own is not None and factorise is not None and solve is not None:
+                if request == NEED_FACTORS:
+                    if numbers.back > 0:
+                        copy(own.previous, own.last)
+                    numbers.trace_of_j = trace(own)
+                    numbers.sign = factorise(numbers.scaled, data, own.last, own.factors, own.pivots)
+                    continue
+                if request == NEED_SOLUTION:
+                    set_right_side(rows, places, numbers.scaled)
+                    solve(data, own.factors, own.pivots, rows[at.DELTA])
+                    continue
+                if request == NEED_MAGNITUDE:
+                    magnify(own, rows, mass, places, numbers.scaled)
+                    continue
+            t = numbers.t
+            ended = taken = False
+            while not ended:
+                mark = position[NEXT_MARK]
+                inside = times[mark] < t - tolerance
+                ended = not inside
+                t_part = times[mark] if inside else t
+                if inside:
+                    state_at(numbers, rows, t_part, end)
+                else:
+                    copy(newest, end)
+                advance(reached[0], t_part, end, data, memory)
+                reached[0] = t_part
+                if times[mark] <= t + tolerance:
+                    if marks.is_output[mark]:
+                        observe(t_part, end, data, memory, marks.rows[position[N_OUTPUTS]])
+                        position[N_OUTPUTS] += 1
+                        taken = ended
+                    if marks.is_picture[mark]:
+                        picture(t_part, end, data, memory, marks.pictures[position[N_PICTURES]])
+                        position[N_PICTURES] += 1
+                    position[NEXT_MARK] += 1
+            if not taken and _is_followed(marks.windows, position, marks.stride, marks.wanted, t):
+                observe(t, newest, data, memory, marks.step_rows[position[N_STEPS]])
+                marks.step_times[position[N_STEPS]] = t
+                position[N_STEPS] += 1
+            accept(t, newest, data, memory)
+            if t == numbers.t_end:
+                return ENDED
+            if pause[0] != 0 or position[N_STEPS] == marks.step_times.size:
                 return PAUSED
-            continue
-        if request == NEED_JACOBIAN:
-            jacobian.fill(0.0)
-            jac(numbers.t_eval, y, data, memory, f, jacobian)
-            if own is not None:
-                numbers.finite = take_over(own, numbers.back)
-            if pause[0] == AFTER_EVALUATION:
-                return PAUSED
-            continue
-        if request == FAILED:
-            return FAILED
-        if own is not None and factorise is not None and solve is not None:
-            if request == NEED_FACTORS:
-                if numbers.back > 0:
-                    copy(own.previous, own.last)
-                numbers.trace_of_j = trace(own)
-                numbers.sign = factorise(numbers.scaled, data, own.last, own.factors, own.pivots)
-                continue
-            if request == NEED_SOLUTION:
-                set_right_side(rows, places, numbers.scaled)
-                solve(data, own.factors, own.pivots, rows[at.DELTA])
-                continue
-            if request == NEED_MAGNITUDE:
-                magnify(own, rows, mass, places, numbers.scaled)
-                continue
-        t = numbers.t
-        ended = taken = False
-        while not ended:
-            mark = position[NEXT_MARK]
-            inside = times[mark] < t - tolerance
-            ended = not inside
-            t_part = times[mark] if inside else t
-            if inside:
-                state_at(numbers, rows, t_part, end)
-            else:
-                copy(newest, end)
-            advance(reached[0], t_part, end, data, memory)
-            reached[0] = t_part
-            if times[mark] <= t + tolerance:
-                if marks.is_output[mark]:
-                    observe(t_part, end, data, memory, marks.rows[position[N_OUTPUTS]])
-                    position[N_OUTPUTS] += 1
-                    taken = ended
-                if marks.is_picture[mark]:
-                    picture(t_part, end, data, memory, marks.pictures[position[N_PICTURES]])
-                    position[N_PICTURES] += 1
-                position[NEXT_MARK] += 1
-        if not taken and _is_followed(marks, t):
-            observe(t, newest, data, memory, marks.step_rows[position[N_STEPS]])
-            marks.step_times[position[N_STEPS]] = t
-            position[N_STEPS] += 1
-        accept(t, newest, data, memory)
-        if t == numbers.t_end:
-            return ENDED
-        if pause[0] != 0 or position[N_STEPS] == marks.step_times.size:
-            return PAUSED
+
+    functions: list[Any] = [rhs, jac, advance, accept, observe, picture]
+    functions += [] if factorise is None else [factorise, solve]
+    if not all(isinstance(function, Kernel) for function in functions):
+        return run
+    names = " ".join(function.name for function in functions)
+    run.__qualname__ = f"run_{hashlib.sha256(names.encode()).hexdigest()[:16]}"
+    listed = all(function.name in ENTRIES for function in functions)
+    made = Kernel(run, SOURCES, unlocked=True, layouts=_layouts(*functions) if listed else None)
+    return enlisted(made) if listed else made
+
+
+def _layouts(rhs: Kernel, jac: Kernel, *others: Kernel) -> Layouts:
+    """Return the layouts of the arguments of the loop; pictures have a dimension more than one of them."""
+    marks, place = cast("Tuple", of_hint(Marks)), Marks._fields.index("pictures")
+    picture = cast("Array", others[3].layouts[-1])
+    members = list(marks.members)
+    members[place] = replace(picture, ndim=picture.ndim + 1)
+    own = of_hint(OwnMatrix) if others[4:] else Absent()
+    work = jac.layouts[-1], own, Tuple(Marks, tuple(members)), of_hint(IntArray)
+    return (of_hint(MebdfState), *rhs.layouts[2:4], *work)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from mebdf.kernels.arrays import copy
 from mebdf.kernels.mass import is_algebraic, magnitude_of_mass
 from mebdf.kernels.state import ATOL, DELTA, MAGNITUDE, RESIDUAL, RTOL, Y
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray, IntMatrix
+from tribodyn.kernels.jit import entry
 
 
 class OwnMatrix(NamedTuple):
@@ -32,15 +32,15 @@ class OwnMatrix(NamedTuple):
         What the problem's ``factorise`` leaves for its ``solve``.
     """
 
-    places: NDArray[np.int64]
+    places: IntMatrix
     jacobian: FloatArray
     last: FloatArray
     previous: FloatArray
     factors: FloatArray
-    pivots: NDArray[np.int64]
+    pivots: IntArray
 
 
-@kernel
+@entry
 def take_over(own: OwnMatrix, back: int) -> bool:
     """Keep a new Jacobian if it is finite, and the newest before it; return whether it is."""
     total = 0.0
@@ -54,7 +54,7 @@ def take_over(own: OwnMatrix, back: int) -> bool:
     return True
 
 
-@kernel
+@entry
 def trace(own: OwnMatrix) -> float:
     """Return the trace of the Jacobian in use, as far as its entries have places."""
     total = 0.0
@@ -64,9 +64,9 @@ def trace(own: OwnMatrix) -> float:
     return total
 
 
-@kernel
+@entry
 def magnify(
-    own: OwnMatrix, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64], scaled: float
+    own: OwnMatrix, rows: FloatMatrix, mass: FloatArray, places: NDArray[np.int64], scaled: float
 ) -> None:
     """Fill the row MAGNITUDE, as :func:`mebdf.kernels.matrix.magnify` does."""
     for i in range(rows.shape[1]):
@@ -79,8 +79,8 @@ def magnify(
         rows[MAGNITUDE, i] += abs(scaled * own.last[k]) * size
 
 
-@kernel
-def set_right_side(rows: FloatArray, places: NDArray[np.int64], scaled: float) -> None:
+@entry
+def set_right_side(rows: FloatMatrix, places: NDArray[np.int64], scaled: float) -> None:
     """Copy the row RESIDUAL to DELTA, for a matrix that has the step in algebraic equations, too."""
     for i in range(rows.shape[1]):
         factor = scaled if places.size > 0 and is_algebraic(places, i) else 1.0

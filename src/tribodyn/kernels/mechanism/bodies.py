@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Annotated, Any
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
+from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY, BodyNow
 from tribodyn.kernels.mechanism.vectors import turn
 
 
@@ -23,8 +23,8 @@ def attitude(p: FloatArray, matrix: FloatArray) -> None:
         matrix[j, i] = scale * (p[1 + i] * p[1 + j] + p[0] * p[1 + k])
 
 
-@kernel
-def place(y: FloatArray, bodies: Any) -> None:
+@entry
+def place(y: FloatArray, bodies: Annotated[Record, BodyNow, 1]) -> None:
     """Fill the records of all bodies but the ground from the state (n,)."""
     for b in range(bodies.size - 1):
         body, first = bodies[b], N_STATES * b
@@ -37,8 +37,8 @@ def place(y: FloatArray, bodies: Any) -> None:
         attitude(body.p, body.A)
 
 
-@kernel
-def collect(bodies: Any, y: FloatArray) -> None:
+@entry
+def collect(bodies: Annotated[Record, BodyNow, 1], y: FloatArray) -> None:
     """Fill the state from the records."""
     for b in range(bodies.size - 1):
         body, first = bodies[b], N_STATES * b
@@ -84,8 +84,8 @@ def turn_quaternion(p: FloatArray, w: FloatArray, factor: float, out: FloatArray
     out[3] = factor * (p[0] * w[2] + p[1] * w[1] - p[2] * w[0])
 
 
-@kernel
-def move(body: Record, change: FloatArray, step: FloatArray) -> None:
+@entry
+def move(body: Annotated[Record, BodyNow], change: FloatArray, step: FloatArray) -> None:
     """Displace a body by a way and a small turn in its own axes (6,); ``step`` (4,) is work space."""
     for i in range(3):
         body.r[i] += change[i]

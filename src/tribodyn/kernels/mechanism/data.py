@@ -14,11 +14,14 @@ One file because these records hold each other.
 
 from __future__ import annotations
 
-from typing import Any, Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from mebdf.compiled.layouts import STACKED
+from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.actions import Term
 from tribodyn.kernels.film.data import FilmData, FilmMemory
+from tribodyn.kernels.joints.film import Oil
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import Pose
@@ -381,9 +384,9 @@ class Pattern(NamedTuple):
         Work space, shape (6,).
     """
 
-    factor: IntArray
-    forward: IntArray
-    backward: IntArray
+    factor: IntMatrix
+    forward: IntMatrix
+    backward: IntMatrix
     exchanges: IntArray
 
 
@@ -396,9 +399,9 @@ class Parts(NamedTuple):
         One record; one for each body; one for each coupling.
     """
 
-    constants: Record
-    bodies: Any
-    couplings: Any
+    constants: Annotated[Record, Constants]
+    bodies: Annotated[Record, Body, 1]
+    couplings: Annotated[Record, Coupling, 1]
 
 
 class Now(NamedTuple):
@@ -412,12 +415,12 @@ class Now(NamedTuple):
         Unknowns and right-hand sides of the nodes, and what a solution leaves of them, shape (n_nodes, 8).
     """
 
-    course: Record
-    bodies: Any
-    couplings: Any
-    x: FloatArray
-    rest: FloatArray
-    left: FloatArray
+    course: Annotated[Record, Course]
+    bodies: Annotated[Record, BodyNow, 1]
+    couplings: Annotated[Record, CouplingNow, 1]
+    x: FloatMatrix
+    rest: FloatMatrix
+    left: FloatMatrix
 
 
 class MechanismData(NamedTuple):
@@ -433,19 +436,17 @@ class MechanismData(NamedTuple):
         Patterns of the equations of motion and of the iteration matrix of implicit methods.
     contact
         All joints with clearance.
-    films, film_force
-        The oil films of all joints that have one, see ``kernels/film/several.py``, and the function that
-        evaluates one, see ``kernels/mechanism/film.py``.
+    films
+        The oil films of all joints that have one, see ``kernels/film/several.py``.
     """
 
     parts: Parts
     signals: Signals
-    terms: Any
+    terms: Annotated[Record, Term, 1]
     mass: Pattern
     newton: Pattern
     contact: SurfaceData
-    films: FilmData
-    film_force: Any
+    films: Annotated[FilmData, STACKED]
 
 
 class MechanismMemory(NamedTuple):
@@ -472,10 +473,10 @@ class MechanismMemory(NamedTuple):
     """
 
     now: Now
-    blocks: FloatArray
-    independence: FloatArray
+    blocks: FloatCube
+    independence: FloatMatrix
     settled: FloatArray
-    books: Any
+    books: Annotated[Record, Book, 1]
     contact: SurfaceMemory
-    films: FilmMemory
-    oil: Any
+    films: Annotated[FilmMemory, STACKED]
+    oil: Annotated[Record, Oil, 1]

@@ -5,14 +5,14 @@ See ``kernels/mechanism/solution.py`` for what is solved.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Annotated, Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.lanes import WIDTH, store, zeros
 from tribodyn.kernels.mechanism.blocks import factorise, solve
-from tribodyn.kernels.mechanism.data import NONE, Now, Parts, Pattern
+from tribodyn.kernels.mechanism.data import NONE, Coupling, Now, Parts, Pattern
 
 ROUNDS: Final = 3
 NEGLIGIBLE: Final = 1.0e-12
@@ -20,8 +20,8 @@ NEGLIGIBLE: Final = 1.0e-12
 those of another position: one more would change less than the square of it."""
 
 
-@kernel
-def has_law(coupling: Record) -> bool:
+@entry
+def has_law(coupling: Annotated[Record, Coupling]) -> bool:
     """Return whether a coupling is the first leg of an element with a force law."""
     found: bool = coupling.law != 0 and coupling.first_leg == NONE
     return found

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.jit import kernel
+from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import (
     N_STATES,
@@ -26,19 +26,19 @@ from tribodyn.kernels.mechanism.vectors import turn
 from tribodyn.kernels.signals import Signals
 
 
-@kernel
+@entry
 def follow(
     parts: Parts,
     now: Now,
     signals: Signals,
     pattern: Pattern,
-    blocks: FloatArray,
+    blocks: FloatCube,
     times: FloatArray,
     first: int,
     most: float,
     closed: float,
-    matrix: FloatArray,
-    motion: FloatArray,
+    matrix: FloatMatrix,
+    motion: FloatMatrix,
 ) -> int:
     """Lead the bodies through times; return the number of the first at which joints do not close, or of none.
 

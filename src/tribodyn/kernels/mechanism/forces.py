@@ -41,6 +41,7 @@ from tribodyn.kernels.mechanism.data import (
     MechanismData,
     MechanismMemory,
 )
+from tribodyn.kernels.mechanism.film import film_force
 from tribodyn.kernels.signals import Signals, evaluate
 
 
@@ -69,7 +70,7 @@ def force(
         _contact(coupling.contact, now, data.contact, memory.contact, mode)
     if coupling.film != NONE:
         scratch, oil = memory.contact.scratch, memory.oil
-        data.film_force(mode, data.films, memory.films, coupling.film, now, scratch, oil)
+        film_force(mode, data.films, memory.films, coupling.film, now, scratch, oil)
     for axis in range(2):
         now.effort[axis] = 0.0
         if coupling.effort[axis] != NONE:

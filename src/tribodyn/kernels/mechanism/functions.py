@@ -6,7 +6,7 @@ import math
 from typing import Final
 
 from mebdf.kernels.arrays import copy
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.kernels.film.report import film_pressure
 from tribodyn.kernels.film.several import film_at, memory_at
 from tribodyn.kernels.jit import entry, inlined, kernel
@@ -70,7 +70,7 @@ def jac(
     data: MechanismData,
     memory: MechanismMemory,
     f: FloatArray,
-    jacobian: FloatArray,
+    jacobian: FloatMatrix,
 ) -> None:
     """Fill ``f`` (n,) and its derivative ``jacobian`` (n, n)."""
     _differentiate(t, y, data, memory, f)
@@ -155,7 +155,7 @@ def accept(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory
     _look_after_rows(data.parts, memory.now, memory.independence)
 
 
-@kernel
+@entry
 def touch(data: MechanismData, memory: MechanismMemory, at_start: float) -> None:
     """Let contact of all joints and in all force laws begin and end."""
     for k in range(data.parts.couplings.size):

@@ -7,66 +7,87 @@ its legs make. A law is compiled by itself, so a new one leaves all other compil
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
-from functools import cache
-from typing import Any, Final, TypeAlias
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
 
-import numba
-from llvmlite import ir
-from numba.core import types
-from numba.extending import intrinsic
-
-from tribodyn.core.quantities import Record, RecordType
-from tribodyn.kernels import address
-from tribodyn.kernels.jit import entry, kernel
+from mebdf.compiled.kernel import UNCOMPILED, Instruction, Kernel, enlisted
+from mebdf.compiled.layouts import One
+from tribodyn.core.quantities import Record, RecordType, record_type
+from tribodyn.kernels.jit import SOURCES, kernel
 from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, WORK, Law
 from tribodyn.kernels.signals import Signals, evaluate
 
-Function: TypeAlias = Callable[[Any, Any], None]
 
-_UNCOMPILED: Final[bool] = vars(numba.config)["DISABLE_JIT"]
-_laws: Final[dict[int, Callable[[Any, Any], None]]] = {}
-"""Laws by their numbers, where compilation is switched off."""
-_BYTES: Final = ir.IntType(8).as_pointer()
+@dataclass(frozen=True, eq=False)
+class LawFunction:
+    """A force law.
 
-
-@cache
-def address_of(function: Function, parameters: RecordType) -> int:
-    """Return the address of a law's compiled code.
-
-    Parameters
+    Attributes
     ----------
     function
         The law, in Python that numba compiles; it allocates nothing.
     parameters
-        Type of the record of its parameters.
+        Names of the parameters that it reads, in the order in which its record holds them.
     """
-    if _UNCOMPILED:
-        n = len(parameters.names or ())
-        _laws[len(_laws) + 1] = lambda held, law: function(held.values[:n].view(parameters)[0], law)
-        return len(_laws)
-    compiled = entry(function)
-    _kept.append(compiled)
-    return address.address_of(compiled, types.void(numba.from_dtype(parameters), numba.from_dtype(Law)))
+
+    function: Callable[[Any, Any], None]
+    parameters: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        """List it among what the build compiles."""
+        if not UNCOMPILED:
+            enlisted(self._kernel)
+
+    def __call__(self, parameters: Record, law: Record) -> None:
+        """Fill the force in Python."""
+        self.function(parameters, law)
+
+    @cached_property
+    def fields(self) -> RecordType:
+        """Type of the record of its parameters."""
+        return record_type(*((name, "f8") for name in self.parameters))
+
+    @cached_property
+    def _kernel(self) -> Kernel:
+        layouts = One(self.fields), One(Law)
+        return Kernel(self.function, SOURCES, layouts=layouts, stamp=self._source)
+
+    def _source(self) -> str:
+        """Return all that its machine code depends on beside kernels: its source, and numbers named there."""
+        named = set(self.function.__code__.co_names) & self.function.__globals__.keys()
+        values = {name: self.function.__globals__[name] for name in sorted(named)}
+        numbers = {name: value for name, value in values.items() if isinstance(value, int | float)}
+        return f"{inspect.getsource(self.function)}{numbers}"
+
+    @cached_property
+    def address(self) -> int:
+        """Address of its compiled code; where nothing is compiled, its number."""
+        if UNCOMPILED:
+            _laws.append(self)
+            return len(_laws)
+        return self._kernel.code(self._kernel.layouts, "_law")[0]
 
 
-_kept: Final[list[Any]] = []
-"""Compiled laws, which last as long as the process: records hold their addresses."""
+def force_law(*parameters: str) -> Callable[[Callable[[Any, Any], None]], LawFunction]:
+    """Return the decorator of a force law that reads these parameters."""
+    return lambda function: LawFunction(function, parameters)
 
 
-@intrinsic
-def _compiled_call(typing: Any, address: Any, parameters: Any, law: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        function = ir.FunctionType(_BYTES, [_BYTES, _BYTES]).as_pointer()
-        records = [builder.bitcast(record, _BYTES) for record in arguments[1:]]
-        builder.call(builder.inttoptr(arguments[0], function), records)
-        return context.get_dummy_value()
+_laws: Final[list[LawFunction]] = []
+"""Laws by their numbers from 1 on, where nothing is compiled."""
 
-    return types.void(types.int64, parameters, law), generate
+
+def _in_python(number: int, held: Record, law: Record) -> None:
+    """Call the law with a number."""
+    called = _laws[number - 1]
+    called(held.values[: len(called.parameters)].view(called.fields)[0], law)
 
 
 _call: Final[Any] = (
-    (lambda address, parameters, law: _laws[address](parameters, law)) if _UNCOMPILED else _compiled_call
+    _in_python if UNCOMPILED else Instruction(_in_python, "tribodyn.kernels.instructions", "call_law")
 )
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.solution import set_compliance
 
@@ -15,7 +15,7 @@ PREFERRED: Final = 10.0
 """Advantage that a row needs to take the place of one that was independent before."""
 
 
-@kernel
+@entry
 def row_scale(parts: Parts, now: Now) -> None:
     """Fill the scale of every row where the bodies are: the diagonal of G M⁻¹ Gᵀ."""
     for k in range(parts.couplings.size):
@@ -63,8 +63,8 @@ def _in_body(body: Record, left: FloatArray, right: FloatArray) -> float:
     return total
 
 
-@kernel
-def choose_rows(parts: Parts, now: Now, matrix: FloatArray) -> None:
+@entry
+def choose_rows(parts: Parts, now: Now, matrix: FloatMatrix) -> None:
     """Mark the rows that are dependent, by Cholesky's decomposition of G M⁻¹ Gᵀ with pivoting.
 
     ``matrix`` (n_rows, n_rows) is work space.

@@ -26,12 +26,12 @@ One file because all of these steps share the factors of one linear system.
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import Annotated, Final
 
 from mebdf.kernels.elementary import hypot
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatCube
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.bodies import collect, make_unit, move, own_force, place
 from tribodyn.kernels.mechanism.constraints import fill_rates, fill_rows, prescribe
@@ -43,6 +43,7 @@ from tribodyn.kernels.mechanism.data import (
     PATH,
     REPORTS,
     WORK,
+    CouplingNow,
     MechanismData,
     MechanismMemory,
     Now,
@@ -73,7 +74,7 @@ EXACT: Final = 1.0e-14
 """Part of what the rows carry that their accelerations may miss."""
 
 
-@kernel
+@entry
 def kinematics(parts: Parts, now: Now, signals: Signals, t: float) -> None:
     """Fill relative motion and rows of all couplings where the bodies are."""
     fill_positions(parts, now, signals, t)
@@ -272,15 +273,15 @@ def _gap(parts: Parts, now: Now) -> float:
     return largest_residual(parts, now, 1.0)
 
 
-@kernel
-def mark_angles(couplings: Any) -> None:
+@entry
+def mark_angles(couplings: Annotated[Record, CouplingNow, 1]) -> None:
     """Count whole turns from here."""
     for k in range(couplings.size):
         couplings[k].angle_mark = whole_angle(couplings[k])
 
 
-@kernel
-def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatArray, t: float) -> int:
+@entry
+def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: FloatCube, t: float) -> int:
     """Move the bodies onto the constraints, the shortest way by mass, and fill the positions there.
 
     Those of where the bodies are must have been filled. Return how many corrections it took; the factors are
@@ -304,8 +305,8 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
     return corrections
 
 
-@kernel
-def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArray, near: float) -> None:
+@entry
+def correct_velocities(parts: Parts, now: Now, pattern: Pattern, blocks: FloatCube, near: float) -> None:
     """Make velocities those that the constraints allow, by impulses, and fill the kinematics with them.
 
     The positions must have been filled. With ``near`` 1 the factors at hand are those of a position close by;
@@ -385,7 +386,7 @@ def settle(data: MechanismData, memory: MechanismMemory, t: float, y: FloatArray
                 state.powers[WORK] += state.constraint[i] * state.twist[i]
 
 
-@kernel
+@entry
 def set_offsets(parts: Parts, now: Now) -> None:
     """Let the equations of all elements hold where the kinematics were filled: angles count from there."""
     for k in range(parts.couplings.size):
@@ -403,7 +404,7 @@ def share(parts: Parts, now: Now) -> None:
             state.compliance[m] = HARD * state.scale[m]
 
 
-@kernel
+@entry
 def set_compliance(parts: Parts, now: Now) -> None:
     """Give every row the compliance of an independent or a dependent one."""
     for k in range(parts.couplings.size):

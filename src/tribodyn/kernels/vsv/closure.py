@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Annotated, Final
 
 from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import entry, inlined, kernel
+from tribodyn.kernels.vsv.data import Mechanism
 
 MAX_NEWTON = 30
 CONVERGED = 1.0e-10
@@ -37,8 +38,9 @@ def ideal_guess(mechanism: Record, theta_a: float) -> float:
     return p0 + u * (m0 + u * (3.0 * (p1 - p0) - 2.0 * m0 - m1 + u * (2.0 * (p0 - p1) + m0 + m1)))
 
 
+@entry
 @inlined
-def crank_end(mechanism: Record, theta_a: float) -> tuple[float, float]:
+def crank_end(mechanism: Annotated[Record, Mechanism], theta_a: float) -> tuple[float, float]:
     """Return x and z of S1 [m], the end of the crank."""
     s1_x = mechanism.pivot_x - mechanism.l_1 * sin(theta_a)
     s1_z = mechanism.pivot_z + mechanism.l_1 * cos(theta_a)
@@ -54,9 +56,9 @@ def ring_end(mechanism: Record, x3: float, z3: float) -> tuple[float, float]:
     return s2_x, s2_z
 
 
-@kernel
+@entry
 def closure_residual(
-    mechanism: Record,
+    mechanism: Annotated[Record, Mechanism],
     s1_x: float,
     s1_z: float,
     e_x: float,
@@ -99,9 +101,9 @@ def _turned_back(sine: float, cosine: float, step: float) -> tuple[float, float]
     return sine - (sine * less + cosine * sine_of_step), cosine - (cosine * less - sine * sine_of_step)
 
 
-@kernel
+@entry
 def vane_attitude(
-    mechanism: Record,
+    mechanism: Annotated[Record, Mechanism],
     theta_a: float,
     s1_x: float,
     s1_z: float,

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity, Record, names, record_type
-from tribodyn.kernels.actions import N_OVER, Actions
+from tribodyn.kernels.actions import N_OVER, Actions, Segment
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.bushing import BushingData
+from tribodyn.kernels.joints.collar import Collar
+from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
 from tribodyn.kernels.joints.memory import JointMemory
+from tribodyn.kernels.ledger import books_type
 from tribodyn.kernels.peaks import Peaks
-from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_IDEAL, N_ROWS
+from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_COORDINATES, N_IDEAL, N_ROWS
+from tribodyn.kernels.vsv.quantities import FORCES, POWERS
 
 CONSTANTS: Final = tuple(
     Quantity(name, unit, meaning, ())
@@ -105,9 +109,9 @@ class VsvData(NamedTuple):
         The drive, where it is no sinusoid, loads from tables, and the segments of the run.
     """
 
-    mechanism: Record
+    mechanism: Annotated[Record, Mechanism]
     joint: BushingData
-    collar: Record
+    collar: Annotated[Record, Collar]
     actions: Actions
 
 
@@ -139,6 +143,9 @@ alone; ``angles`` are θ_sz and θ_sx with two derivatives, in ``printed``.
 ``marked`` is 1 while the others hold what the ledger evaluated at its mark.
 """
 
+Books: Final = books_type(len(POWERS), len(FORCES), N_COORDINATES)
+"""Books of energy, see ``kernels/ledger.py``."""
+
 
 class VsvMemory(NamedTuple):
     """History variables, changed at accepted steps.
@@ -163,9 +170,9 @@ class VsvMemory(NamedTuple):
     """
 
     joint: JointMemory
-    collar: Record
-    segment: Record
+    collar: Annotated[Record, CollarExtremes]
+    segment: Annotated[Record, Segment]
     regime: FloatArray
     peaks: Peaks
-    books: Record
-    scratch: Record
+    books: Annotated[Record, Books]
+    scratch: Annotated[Record, Scratch]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.jit import entry
 from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
@@ -36,7 +36,12 @@ def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray
 
 @entry
 def jac(
-    t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray, jacobian: FloatArray
+    t: float,
+    y: FloatArray,
+    data: VsvData,
+    memory: VsvMemory,
+    f: FloatArray,
+    jacobian: FloatMatrix,
 ) -> None:
     """Fill ``f`` (8,) and its derivative ``jacobian`` (8, 8)."""
     accelerations_and_gradient(data, t, y, memory)
@@ -76,15 +81,20 @@ def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
 
 
 @entry
-def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatArray) -> None:
+def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: FloatCube) -> None:
     """Fill ``fields`` (1, n_z + 2, n_theta) with the contact pressure [Pa]."""
     place(data, t, y, 0.0, 0.0, memory)
     pressure_field(data.joint, memory.joint, memory.joint.scratch.pose, fields[0])
 
 
-@kernel
+@entry
 def kinetostatic_residual(
-    t: float, y: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatArray
+    t: float,
+    y: FloatArray,
+    data: VsvData,
+    memory: VsvMemory,
+    residual: FloatArray,
+    jacobian: FloatMatrix,
 ) -> None:
     """Fill the generalised load that remains with q̇ = q̈ = 0, and its derivative.
 

@@ -39,7 +39,7 @@ def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
     number = model.first_leg
     for element in model.elements:
         for equation in element.equations:
-            names = [] if equation.law is None else list(equation.law.parameters)
+            names = [] if equation.law is None else list(equation.law.function.parameters)
             if SLIP in names:
                 values = couplings["parameters"]["values"][
                     number : number + len(equation.legs), names.index(SLIP)

@@ -15,7 +15,6 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import ask
-from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
@@ -81,7 +80,7 @@ class Linearised:
 
     def __init__(self, assembly: Assembly, times: FloatArray) -> None:
         problem = mechanism_problem(assembly, duration=1.0, rtol=0.1, dense=True)
-        self._functions = machine_code(problem, kernel_types(problem))
+        self._functions = problem.functions
         self._data, self._memory = held(problem.data, times), problem.memory
         self.system = placed(System(assembly.model), assembly)
         self.system.data = held(self.system.data, times)

@@ -18,7 +18,6 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.stopping import ask
-from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import (
@@ -91,7 +90,7 @@ class JointLoads:
         collect(ideal.now.bodies, self.state)
         problem = mechanism_problem(assembly, duration=1.0, rtol=0.1, state=self.state)
         self.data, self.memory = problem.data, memory_of(assembly, self.state)
-        self._forces = machine_code(problem, kernel_types(problem)).jac
+        self._forces = problem.functions.jac
         couplings = self.data.parts.couplings
         self.couplings = self.memory.now.couplings
         self.contacts = nodes_of(self.data.contact, np.flatnonzero(couplings.force == CONTACT))

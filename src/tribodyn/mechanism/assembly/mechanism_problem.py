@@ -8,29 +8,18 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
-from tribodyn.integrate.binding import call
 from tribodyn.kernels import dense
-from tribodyn.kernels.mechanism import functions, newton
+from tribodyn.kernels.mechanism import functions, loop, newton
 from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.ordering import n_blocks
-from tribodyn.mechanism.assembly.parts_by_number import Model
-from tribodyn.mechanism.assembly.records import mechanism_data, new_memory
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanisms.action_intervals import WAVE_STEPS
 from tribodyn.mechanisms.wear_state import Carried
 
-FUNCTIONS: Final = CompiledFunctions(
-    rhs=functions.rhs,
-    jac=functions.jac_entries,
-    enter=functions.enter,
-    advance=functions.advance,
-    accept=functions.accept,
-    observe=functions.observe,
-    picture=functions.picture,
-)
+FUNCTIONS: Final = CompiledFunctions(**loop.FUNCTIONS)
 STATES: Final = (
     *("x", "y", "z"),
     *("p_0", "p_1", "p_2", "p_3"),
@@ -80,7 +69,7 @@ def mechanism_problem(
     if carried is not None:
         memory.contact.entry_velocity[:] = carried.entry_velocity
     # Of what is carried on, points that wear has taken out of contact forget.
-    call(functions.touch, data, memory, 1.0 if carried is None else 0.0)
+    functions.touch(data, memory, 1.0 if carried is None else 0.0)
     tolerances = rtol * _scales(assembly, duration) if atol is None else np.asarray(atol)
     return Problem(
         functions=replace(FUNCTIONS, jac=functions.jac) if dense else FUNCTIONS,
@@ -96,25 +85,6 @@ def mechanism_problem(
         field_shape=(data.contact.nodes.shape[1] + data.films.wear_node.size,),
         algebra=None if dense else _algebra(data),
         longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
-    )
-
-
-def template(model: Model) -> Problem:
-    """Return a problem of which only the types count, to compile the equations from."""
-    data = mechanism_data(model)
-    n = N_STATES * len(model.bodies)
-    return Problem(
-        functions=FUNCTIONS,
-        data=data,
-        memory=new_memory(data),
-        y0=np.zeros(n),
-        t_span=(0.0, 1.0),
-        breakpoints=(),
-        atol=np.ones(n),
-        state_names=(),
-        n_observed=1,
-        field_shape=(1,),
-        algebra=_algebra(data),
     )
 
 

@@ -17,7 +17,6 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure, Stopped
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.integrate.binding import kernel_types, machine_code
 from tribodyn.integrate.driver import Kept
 from tribodyn.kernels.actions import TIME
 from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
@@ -130,7 +129,7 @@ class _Walk:
 
     def __init__(self, problem: Problem, path: DrivePath, n_pictures: int) -> None:
         self.problem, self.path, self.memory = problem, path, problem.memory
-        self.functions = machine_code(problem, kernel_types(problem))
+        self.functions = problem.functions
         self.data: MechanismData = problem.data
         self.clock, self.last = path.of_drives * path.forward, 0.0
         self.kept = Kept(problem, path.times.size, n_pictures)

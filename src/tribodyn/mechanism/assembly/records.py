@@ -9,11 +9,9 @@ from numpy.typing import ArrayLike
 
 from tribodyn.cases.case import unit
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.quantities import record_type
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels import dense
-from tribodyn.kernels.address import ByAddress
 from tribodyn.kernels.arrays import new_record, new_records
 from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.joints.film import new_oil
@@ -22,8 +20,6 @@ from tribodyn.kernels.mechanism import data as kinds
 from tribodyn.kernels.mechanism.blocks import INVERT_DEFINITE
 from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory, Now, Parts
 from tribodyn.kernels.mechanism.equations import has_law
-from tribodyn.kernels.mechanism.film import by_address
-from tribodyn.kernels.mechanism.law import address_of
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.load_terms import fill_load
@@ -69,24 +65,19 @@ def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bo
     clearances = tuple(model.clearances.values()) if contacts else ()
     contact = surfaces(clearances, worn)
     oiled = any(clearance.film is not None for clearance in clearances)
-    films, film_force = _with_force(_films(clearances, worn)) if oiled else _dry()
+    films = _films(clearances, worn) if oiled else _dry()
     parts = Parts(constants, _bodies(model), couplings)
     constants.n_entries = number_entries(len(model.bodies), couplings)
     inverts = (mass.factor[:, 0] == INVERT_DEFINITE, 1)
     parts.bodies.inverted[:] = ~np.isin(np.arange(parts.bodies.size), mass.factor[inverts])
     of_loads = term_records(signals, terms)
-    return MechanismData(parts, signals.records(), of_loads, mass, newton, contact, films, film_force)
-
-
-def _with_force(films: FilmData) -> tuple[FilmData, ByAddress]:
-    """Return films with the kernel of their forces."""
-    return films, by_address(films, stacked_memory(films))
+    return MechanismData(parts, signals.records(), of_loads, mass, newton, contact, films)
 
 
 @cache
-def _dry() -> tuple[FilmData, ByAddress]:
-    """Return the same of a mechanism without films."""
-    return _with_force(stacked_data((), ()))
+def _dry() -> FilmData:
+    """Return the films of a mechanism without any."""
+    return stacked_data((), ())
 
 
 def _films(clearances: Sequence[Clearance], worn: FloatArray | None) -> FilmData:
@@ -316,9 +307,9 @@ def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
 
 def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList, first: int) -> None:
     """Fill the force law of an element with a first leg; its equation is no constraint."""
-    fields = record_type(*((name, "f8") for name in law.parameters))
-    record.law, record.n_rows = address_of(law.function, fields), 0
-    record.parameters.values[: len(law.parameters)] = list(law.parameters.values())
+    record.law, record.n_rows = law.function.address, 0
+    names = law.function.parameters
+    record.parameters.values[: len(names)] = [law.parameters[name] for name in names]
     if law.load_of:
         record.load_of = model.joints.index(law.load_of)
     if law.load_leg is not None:

@@ -20,6 +20,7 @@ from tribodyn.cases.loads import OwnFunction
 from tribodyn.cases.signals import AngleSignal, PositionSignal, SpeedSignal, VelocitySignal
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
+from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 AnySetValue = AngleSignal | SpeedSignal | PositionSignal | VelocitySignal
@@ -30,6 +31,7 @@ MOST_SAMPLES: Final = 100_000
 _TURNS: Final = ("angle", "speed")
 
 
+@force_law("limit")
 def held(controller: Any, law: Any) -> None:
     """Fill the force that was set at the last sampling time."""
     law.force = law.held

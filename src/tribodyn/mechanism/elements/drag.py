@@ -5,10 +5,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from tribodyn.cases.fields import Vector, name, number, quantity, vector
+from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements import element as base
 from tribodyn.mechanism.model.parts import POINT
 
 
+@force_law("density", "drag_coefficient", "area")
 def quadratic(body: Any, law: Any) -> None:
     """Fill the drag along the path of a point."""
     factor = 0.5 * body.density * body.drag_coefficient * body.area

@@ -12,9 +12,9 @@ path of its origin; the force then acts along d, or along the velocity.
 An element with a force law says what λ is, as a function of the sum q and its rate, and holds nothing.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final, Literal, Self
+from typing import ClassVar, Final, Literal, Self
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from tribodyn.cases.signals import ForceSignal, TorqueSignal
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import dense
+from tribodyn.kernels.mechanism.law import LawFunction
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.model.parts import POINT, JointKeys
 
@@ -97,9 +98,9 @@ class ForceLaw:
     Attributes
     ----------
     function
-        Function of two records, parameters and ``kernels.mechanism.data.Law``, in Python that numba compiles.
+        A function with the decorator ``force_law``.
     parameters
-        Their names and values, at most ``N_PARAMETERS``.
+        Values of all parameters that it reads, and of others, by their names.
     table
         A function of the coordinate, which the law finds evaluated.
     over_rate
@@ -110,7 +111,7 @@ class ForceLaw:
         Leg of the first equation of the same element whose force across its z is ``normal``; None for none.
     """
 
-    function: Callable[[Any, Any], None]
+    function: LawFunction
     parameters: Mapping[str, float]
     table: Signal | None = None
     over_rate: bool = False
@@ -170,7 +171,7 @@ class ElementKeys(NamedGroup):
     MOMENT: ClassVar[str]
     MOMENT_OF: ClassVar[int] = 0
     EXAMPLE: ClassVar[str]
-    LAW: ClassVar[Callable[[Any, Any], None] | None] = None
+    LAW: ClassVar[LawFunction | None] = None
     IS_SPRING: ClassVar[bool] = False
     IS_DRIVE: ClassVar[bool] = False
 

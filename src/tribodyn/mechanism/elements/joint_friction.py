@@ -15,6 +15,7 @@ from typing import Any, ClassVar, Final, Self
 from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import number, quantity
+from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 LEAST_SLOPE: Final = -1.0e4
@@ -26,6 +27,15 @@ LEAST_CHANGE: Final = 1.0e-6
 """Change of a load, over the reaction, below which rounding decides about the slope."""
 
 
+@force_law(
+    "normal_load",
+    "friction_coefficient",
+    "breakaway",
+    "stribeck_velocity",
+    "slip_velocity",
+    "viscous",
+    "extrapolates",
+)
 def regularised(joint: Any, law: Any) -> None:
     """Fill the friction force at a sliding speed.
 

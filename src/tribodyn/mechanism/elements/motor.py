@@ -12,9 +12,11 @@ from typing import Any, ClassVar
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import quantity
 from tribodyn.cases.signals import ForceSignal, TorqueSignal
+from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 
+@force_law("stall", "slope")
 def of_speed(motor: Any, law: Any) -> None:
     """Fill the force that a motor has at a speed: a straight line, and a table."""
     law.force = motor.stall + motor.slope * law.rate + law.table[0]

@@ -10,9 +10,11 @@ from typing import Any, ClassVar
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import quantity
 from tribodyn.cases.signals import ForceSignal
+from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, Joints, Leg, PointsKeys
 
 
+@force_law("preload", "stiffness", "damping")
 def elastic(spring: Any, law: Any) -> None:
     """Fill the force of a spring with preload, stiffness, table and damper."""
     x, v = law.position, law.rate

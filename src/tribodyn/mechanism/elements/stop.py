@@ -17,6 +17,7 @@ import numpy as np
 from mebdf.kernels.elementary import portable, power
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import choice, number, quantity
+from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 RESTITUTION: Final = 0.7
@@ -25,6 +26,7 @@ LEAST_RATE: Final = 1.0e-3
 """Least speed at which contact begins, where a case does not say it [m/s] or [rad/s]."""
 
 
+@force_law("at", "side", "exponent", "scale", "damping", "least_rate")
 def one_sided(stop: Any, law: Any) -> None:
     """Fill the force of a contact that is closed where side·(position − at) is above zero."""
     depth, speed = stop.side * (law.position - stop.at), stop.side * law.rate

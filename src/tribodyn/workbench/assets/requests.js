@@ -4,7 +4,7 @@
 const APART = 20;
 
 /** States of the server in which a run, or what it needs, is under way. */
-const STOPPABLE = new Set(["running", "compiling", "waiting"]);
+const STOPPABLE = new Set(["running", "waiting"]);
 
 /** What the server says of itself where nothing is under way. */
 const READY = { state: "ready", message: "", seconds: null, share: null };

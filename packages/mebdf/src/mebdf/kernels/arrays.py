@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from mebdf.arrays import FloatArray
-from mebdf.kernels.jit import kernel
+from mebdf.kernels.jit import entry
 
 
-@kernel
+@entry
 def copy(source: FloatArray, target: FloatArray) -> None:
     """Copy ``source`` into the beginning of ``target``; both one-dimensional."""
     for i in range(source.size):

@@ -26,12 +26,12 @@ Solving Ordinary Differential Equations II, V.3.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mebdf.arrays import FloatArray
+from mebdf.arrays import FloatArray, FloatCube, FloatMatrix
 from mebdf.kernels import state as at
 from mebdf.kernels.coefficients import SCALARS
 from mebdf.kernels.control import LEAST_STEP, choose, limit_step, set_weights
@@ -57,7 +57,7 @@ from mebdf.kernels.phases import (
 )
 from mebdf.kernels.renewal import begin_stages, renew_matrix, take_over
 from mebdf.kernels.start import start
-from mebdf.kernels.state import Numbers
+from mebdf.kernels.state import NUMBERS, Numbers
 
 MOST_VAIN: Final = 100
 """Failures of Newton's iteration with a new Jacobian after which the progress is looked at."""
@@ -69,9 +69,9 @@ ROUNDING: Final = 1.0e-10
 
 @entry
 def resume(
-    numbers: NDArray[np.void],
-    rows: FloatArray,
-    matrices: FloatArray,
+    numbers: Annotated[NDArray[np.void], NUMBERS, 1],
+    rows: FloatMatrix,
+    matrices: FloatCube,
     pivots: NDArray[np.int64],
     mass: FloatArray,
     places: NDArray[np.int64],

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from mebdf.arrays import FloatArray
-from mebdf.kernels.jit import inlined, kernel
-from mebdf.kernels.state import HISTORY, N_DIFFERENCES, SCRATCH, Numbers
+from typing import Annotated
+
+from mebdf.arrays import FloatArray, FloatMatrix
+from mebdf.kernels.jit import entry, inlined, kernel
+from mebdf.kernels.state import HISTORY, N_DIFFERENCES, NUMBERS, SCRATCH, Numbers
 
 
 @kernel
@@ -56,8 +58,8 @@ def push(rows: FloatArray, newest: int, size: int, first: int) -> None:
             value -= older
 
 
-@kernel
-def state_at(state: Numbers, rows: FloatArray, t: float, y: FloatArray) -> None:
+@entry
+def state_at(state: Annotated[Numbers, NUMBERS], rows: FloatMatrix, t: float, y: FloatArray) -> None:
     """Fill ``y`` with the solution at a time inside the last accepted step."""
     s = (t - state.t) / state.h_last
     for i in range(y.size):

@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from mebdf.compiled.cache import Sources
-from mebdf.compiled.jit import decorators
+from mebdf.compiled.kernel import decorators
+from mebdf.compiled.library import Sources
 
-SOURCES: Final = Sources(Path(__file__).parents[1], ("kernels/**/*.py", "compiled/*.py", "arrays.py"))
+SOURCES: Final = Sources(
+    Path(__file__).parents[1], ("kernels/**/*.py", "compiled/*.py", "arrays.py"), listing=("mebdf.kernels",)
+)
 """Sources of the solver's machine code."""
 
-entry, kernel, unlocked, inlined = decorators(SOURCES)
+entry, kernel, inlined = decorators(SOURCES)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache
-from typing import Any, Final, NamedTuple
+from typing import Annotated, Any, Final, NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from mebdf.arrays import FloatArray
+from mebdf.arrays import FloatArray, FloatCube, FloatMatrix
 from mebdf.kernels.coefficients import MAX_K
 
 LEAST_GROWTH_WITH_MASS: Final = 1.2
@@ -268,9 +265,9 @@ class MebdfState(NamedTuple):
         Where each row begins in ``mass``, n + 1 numbers, then the column of each entry.
     """
 
-    numbers: NDArray[np.void]
-    rows: FloatArray
-    matrices: FloatArray
+    numbers: Annotated[NDArray[np.void], NUMBERS, 1]
+    rows: FloatMatrix
+    matrices: FloatCube
     pivots: NDArray[np.int64]
     mass: FloatArray
     places: NDArray[np.int64]
@@ -380,10 +377,3 @@ def new_state(
         settings["same_matrix"] = 0.0
     settings["least_growth"] = LEAST_GROWTH_WITH_MASS
     return MebdfState(numbers, rows, matrices, pivots, mass.entries, mass.places)
-
-
-@cache
-def state_type() -> Any:
-    """Return numba's type of every :class:`MebdfState`, which takes milliseconds to find out."""
-    typeof: Callable[[Any], Any] = numba.typeof
-    return typeof(new_state(0.0, np.zeros(1), 1.0, 1.0, np.ones(1)))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.core.tables import ContactTable
 from tribodyn.kernels.jit import inlined
@@ -128,12 +128,12 @@ class SurfaceData(NamedTuple):
     """
 
     joints: IntArray
-    surfaces: Record
-    rows: Record
-    nodes: FloatArray
-    angles: FloatArray
-    rings: FloatArray
-    table_nodes: FloatArray
+    surfaces: Annotated[Record, Surface, 1]
+    rows: Annotated[Record, Row, 1]
+    nodes: FloatMatrix
+    angles: FloatMatrix
+    rings: FloatMatrix
+    table_nodes: FloatMatrix
     energy: FloatArray
     cubics: FloatArray
 

@@ -6,17 +6,20 @@ a kernel changes the scratch, and what it says.
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.joints.pose import V, W
-from tribodyn.kernels.joints.surface import entry, point, ring_entry, ring_jacobian, ring_wrench
+from tribodyn.kernels.joints.surface import entry as of_node
+from tribodyn.kernels.joints.surface import point, ring_entry, ring_jacobian, ring_wrench
 from tribodyn.kernels.joints.surface import report as over_surface
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring
 from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.joints.surface.pose import TURN
+from tribodyn.kernels.joints.surface.pose import TURN, Pose
 from tribodyn.kernels.joints.surface.station import (
     derivatives_at_origin,
     fill_station,
@@ -93,7 +96,7 @@ def fill_pressure(data: SurfaceData, s: int, memory: SurfaceMemory, pressure: Fl
     elif is_ring(data, surface):
         ring_entry.pressure_field(data, surface, memory, memory.scratch.station, pressure)
     else:
-        entry.pressure_field(data, surface, memory, memory.scratch.station, pressure)
+        of_node.pressure_field(data, surface, memory, memory.scratch.station, pressure)
 
 
 @kernel
@@ -105,7 +108,7 @@ def fill_entry_velocity(data: SurfaceData, s: int, memory: SurfaceMemory, at_sta
     elif is_ring(data, surface):
         ring_entry.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
     else:
-        entry.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
+        of_node.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
 
 
 @kernel
@@ -200,8 +203,8 @@ def add_reported(report: Record, out: FloatArray) -> None:
     out[5] += report.M_cz + report.M_fz
 
 
-@kernel
-def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> None:
+@entry
+def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Record, Pose]) -> None:
     """Fill the reports of the surfaces of joint ``j``."""
     for s in range(data.joints[j], data.joints[j + 1]):
         _look(data.surfaces[s], memory.scratch, pose)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Final, NamedTuple
+from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.core.arrays import FloatArray, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import kernel
@@ -90,13 +90,13 @@ class SurfaceMemory(NamedTuple):
     remembering: FloatArray
     sliding_load: FloatArray
     sliding: FloatArray
-    reached: IntArray
+    reached: IntMatrix
     touched: IntArray
     n_touched: IntArray
-    reports: Record
-    peaks: Record
+    reports: Annotated[Record, Report, 1]
+    peaks: Annotated[Record, Peaks, 1]
     block: FloatArray
-    scratch: Record
+    scratch: Annotated[Record, Scratch]
 
 
 def _block_size(rows: Record) -> int:

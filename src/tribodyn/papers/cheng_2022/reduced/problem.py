@@ -21,11 +21,10 @@ from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
 from tribodyn.kernels.joints.quantities import SHARP, STATES
 from tribodyn.kernels.ledger import NO_SWING, new_books
 from tribodyn.kernels.peaks import new_peaks
-from tribodyn.kernels.vsv import functions, layout
-from tribodyn.kernels.vsv.data import Scratch, VsvData, VsvMemory, new_mechanism
-from tribodyn.kernels.vsv.observe import observe
+from tribodyn.kernels.vsv import layout, loop
+from tribodyn.kernels.vsv.data import Books, Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.place import place
-from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, POWERS, WATCHED
+from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, WATCHED
 from tribodyn.mechanisms.action_intervals import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.signal_pieces import SignalList, pieces_of
 from tribodyn.mechanisms.wear_state import Carried
@@ -36,15 +35,7 @@ from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
 STARTS: Final = ("equilibrium", "centred")
 
-FUNCTIONS: Final = CompiledFunctions(
-    rhs=functions.rhs,
-    jac=functions.jac,
-    enter=functions.enter,
-    advance=functions.advance,
-    accept=functions.accept,
-    observe=observe,
-    picture=functions.picture,
-)
+FUNCTIONS: Final = CompiledFunctions(**loop.FUNCTIONS)
 
 
 def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.inf) -> VsvData:
@@ -150,7 +141,7 @@ def vsv_memory(data: VsvData, *, reversals: int = 0, impact_time: float = 0.0) -
         segment=data.actions.segments[0].copy(),
         regime=np.array([1.0, 0.0, 0.0]),
         peaks=new_peaks(len(WATCHED), sharp=SHARP, reversals=reversals, impact_time=impact_time),
-        books=new_books(len(POWERS), len(FORCES), layout.N_COORDINATES, _swing_of(data)),
+        books=new_books(Books, _swing_of(data)),
         scratch=new_record(Scratch),
     )
 

@@ -5,10 +5,7 @@ from __future__ import annotations
 import struct
 from typing import Any, Final
 
-import numba
-from llvmlite import ir
-from numba.core import types
-from numba.extending import intrinsic
+from mebdf.compiled.kernel import UNCOMPILED, Instruction
 
 MANTISSA: Final = 52
 """Bits of a mantissa."""
@@ -22,22 +19,6 @@ SIGN: Final = -(1 << 63)
 """The sign bit."""
 
 
-@intrinsic
-def _bits(typing: Any, number: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        return builder.bitcast(arguments[0], ir.IntType(64))
-
-    return types.int64(types.float64), generate
-
-
-@intrinsic
-def _number(typing: Any, bits: Any) -> Any:
-    def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-        return builder.bitcast(arguments[0], ir.DoubleType())
-
-    return types.float64(types.int64), generate
-
-
 def _uncompiled_bits(number: float) -> int:
     found: int = struct.unpack("<q", struct.pack("<d", number))[0]
     return found
@@ -48,8 +29,10 @@ def _uncompiled_number(bits: int) -> float:
     return found
 
 
-_UNCOMPILED: Final[bool] = vars(numba.config)["DISABLE_JIT"]
-bits_of: Final[Any] = _uncompiled_bits if _UNCOMPILED else _bits
+_MODULE: Final = "mebdf.kernels.elementary.instructions"
+bits_of: Final[Any] = _uncompiled_bits if UNCOMPILED else Instruction(_uncompiled_bits, _MODULE, "bits")
 """Return the bits of a number as a signed integer."""
-number_of: Final[Any] = _uncompiled_number if _UNCOMPILED else _number
+number_of: Final[Any] = (
+    _uncompiled_number if UNCOMPILED else Instruction(_uncompiled_number, _MODULE, "number")
+)
 """Return the number with these bits."""

@@ -19,12 +19,12 @@ from mebdf.kernels.elementary import (
     logarithm,
     trigonometric,
 )
-from mebdf.kernels.jit import kernel
+from mebdf.kernels.jit import entry, kernel
 
 _SIN, _COS, _TAN, _ASIN, _ACOS, _ATAN2, _EXP, _EXPM1, _LOG, _HYPOT, _POWER, _ERFC = range(12)
 
 
-@kernel
+@entry
 def _fill(number: int, x: FloatArray, y: FloatArray, out: FloatArray) -> None:
     for i in range(out.size):
         out[i] = _value(number, x[i], y[i])

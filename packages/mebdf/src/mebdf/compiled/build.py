@@ -1,0 +1,165 @@
+"""Machine code of kernels from LLVM's intermediate code: linked, freed of Python, optimised once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from functools import cache
+from itertools import starmap
+from typing import Any, Final
+
+from llvmlite import binding as llvm
+
+from mebdf.compiled.kernel import RESULT
+from mebdf.compiled.library import NoMachineCode, level
+
+Described = tuple[str, tuple[str, ...], str]
+"""Symbol of a function, kinds of its arguments, kind of its result."""
+PROCESSORS: Final = {"v3": "x86-64-v3", "baseline": "x86-64-v2"}
+"""Processors for which LLVM makes code, by levels. Features are none: numba would add those of this one."""
+ALLOWED: Final = {"memset", "memcpy", "memmove"}
+"""Functions that machine code may take from the system."""
+_RUNTIME: Final = """
+declare double @llvm.sqrt.f64(double)
+define linkonce_odr double @sqrt(double %x) {
+  %root = call double @llvm.sqrt.f64(double %x)
+  ret double %root
+}
+define linkonce_odr void @NRT_incref(ptr %0) {
+  ret void
+}
+define linkonce_odr void @NRT_decref(ptr %0) {
+  ret void
+}
+define linkonce_odr i32 @numba_attempt_nocopy_reshape(i64, ptr, ptr, i64 %n, ptr %shape, ptr %out, i64 %size, i32) {
+begin:
+  br label %test
+test:
+  %i = phi i64 [ %n, %begin ], [ %next, %loop ]
+  %stride = phi i64 [ %size, %begin ], [ %more, %loop ]
+  %over = icmp eq i64 %i, 0
+  br i1 %over, label %end, label %loop
+loop:
+  %next = sub i64 %i, 1
+  %to = getelementptr i64, ptr %out, i64 %next
+  store i64 %stride, ptr %to
+  %from = getelementptr i64, ptr %shape, i64 %next
+  %length = load i64, ptr %from
+  %more = mul i64 %stride, %length
+  br label %test
+end:
+  ret i32 1
+}
+"""  # noqa: E501
+"""Functions that kernels take from numba's runtime: the square root is an instruction, no array owns
+memory, and a new shape is new strides, for all arrays are contiguous."""
+
+
+@cache
+def _started() -> None:
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+
+
+def _shim(number: int, function: Described) -> str:
+    """Return a function of one address: words for the result, then those of the arguments.
+
+    A function of two records has a second one, which is what kernels call by its address.
+    """
+    symbol, kinds, _ = function
+    lines = [f"define i32 @k{number}(ptr %words) {{", "  %raised = alloca ptr"]
+    passed = ["ptr %words", "ptr %raised"]
+    for k, kind in enumerate(kinds):
+        lines.append(f"  %a{k} = getelementptr i64, ptr %words, i64 {RESULT + k}")
+        lines.append(f"  %v{k} = load {kind}, ptr %a{k}")
+        passed.append(f"{kind} %v{k}")
+    lines += [f'  %status = call i32 @"{symbol}"({", ".join(passed)})', "  ret i32 %status", "}"]
+    if kinds == ("ptr", "ptr"):
+        lines += [f"define void @k{number}_law(ptr %0, ptr %1) {{", "  %words = alloca ptr"]
+        lines += [f'  call i32 @"{symbol}"(ptr %words, ptr %words, ptr %0, ptr %1)', "  ret void", "}"]
+    declared = f'declare i32 @"{symbol}"(ptr, ptr{"".join(", " + kind for kind in kinds)})'
+    return "\n".join([declared, *lines])
+
+
+def linked(modules: Iterable[Any], functions: Sequence[Described]) -> Any:
+    """Return one module of intermediate code, of which only functions of words can be called.
+
+    Raises
+    ------
+    NoMachineCode
+        If a kernel calls what it must not: Python, or a function of the C library.
+    """
+    _started()
+    symbols = {function[0] for function in functions}
+    whole = None
+    for module in modules:
+        part = module.clone()
+        for function in part.functions:
+            if not function.is_declaration:
+                function.linkage = "external" if function.name in symbols else "linkonce_odr"
+        if whole is None:
+            whole = part
+        else:
+            whole.link_in(part)
+    assert whole is not None
+    for text in (_RUNTIME, "\n".join(starmap(_shim, enumerate(functions)))):
+        whole.link_in(llvm.parse_assembly(text))
+    module = llvm.parse_assembly(_portable(str(whole)))
+    module.verify()
+    undefined = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
+    if undefined - ALLOWED:
+        raise NoMachineCode(f"a kernel calls {', '.join(sorted(undefined - ALLOWED))}, which no kernel may")
+    return module
+
+
+def _portable(text: str) -> str:
+    """Free a module of numba's runtime and of the machine it was made on."""
+    text = re.sub(r"= (linkonce|common|weak)( global ptr) .*$", r"= internal\2 null", text, flags=re.M)
+    text = re.sub(r"= common ", "= internal ", text)
+    text = re.sub(
+        r"^define (linkonce_odr |weak_odr |linkonce |weak |hidden )*", "define internal ", text, flags=re.M
+    )
+    text = re.sub(r"^define internal (i32|void) @(k\d+(?:_law)?)\(", r"define \1 @\2(", text, flags=re.M)
+    # Exceptions of numba's own code, pickled with paths of the machine that compiled: nobody raises them.
+    text = re.sub(
+        r'^(@\.const\.pickledata[\w.]* = internal constant \[\d+ x i8\]) c".*"',
+        r"\1 zeroinitializer",
+        text,
+        flags=re.M,
+    )
+    return re.sub(r"^source_filename = .*\n", "", text, flags=re.M)
+
+
+def machine(name: str) -> Any:
+    """Return LLVM's machine of a level of processors."""
+    _started()
+    target = llvm.Target.from_triple("x86_64-unknown-linux-gnu")
+    return target.create_target_machine(
+        cpu=PROCESSORS[name], features="", opt=3, reloc="pic", codemodel="default"
+    )
+
+
+def optimised(text: str, target: Any) -> Any:
+    """Return a module of intermediate code for a machine, optimised once."""
+    text = re.sub(r"^target [^\n]*\n", "", text, flags=re.M)
+    head = f'target datalayout = "{target.target_data}"\ntarget triple = "{target.triple}"\n'
+    module = llvm.parse_assembly(head + text)
+    options = llvm.create_pipeline_tuning_options(speed_level=3)
+    options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = True
+    builder = llvm.create_pass_builder(target, options)
+    builder.getModulePassManager().run(module, builder)
+    return module
+
+
+_engines: Final[list[Any]] = []
+"""Machine code made in this process, which lasts as long as it."""
+
+
+def address(module: Any, name: str) -> int:
+    """Return the address of a function of a module of which machine code is made now."""
+    target = machine(level())
+    engine = llvm.create_mcjit_compiler(optimised(str(module), target), target)
+    engine.finalize_object()
+    _engines.append(engine)
+    found: int = engine.get_function_address(name)
+    return found
