@@ -123,7 +123,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 EDITABLE := $(PIP) --no-build-isolation --editable packages/mebdf --editable
 
 $(VENV)/.run: pyproject.toml $(BIN)/python
-	$(PIP) "hatchling>=1.24" editables
+	$(PIP) "hatchling>=1.24" "hatch-fancy-pypi-readme>=24.1" editables
 	$(EDITABLE) ".[compile]"
 	@touch $@
 
