@@ -1,4 +1,4 @@
-"""Rates that jump with the state, up and down: random ones, right or refused, and right where BDF is.
+"""Rates that jump with the state or bring it to rest: random ones, right or refused, and right where BDF is.
 
 Beside an upward jump an implicit formula has two solutions, and a Jacobian by differences across the jump is
 a huge positive number. A solver that trusts either moves against the rate and reports success. The ends are
@@ -168,10 +168,97 @@ def moving_threshold(rng):
     )
 
 
+def power_at_rest(rng):
+    """z' = −a sgn(z) |z|^p: at rest from a time on, where the rate has a vertical slope."""
+    a, p = 10.0 ** rng.uniform(-1, 1), rng.uniform(0.2, 0.9)
+    rest = 1.0 / (a * (1.0 - p))
+    return Case(
+        lambda t, y: -a * np.sign(y) * np.abs(y) ** p,
+        rest * rng.uniform(1.2, 6.0), [1.0], [0.0], *tolerances(rng), 1.0,
+    )  # fmt: skip
+
+
+def tanks(rng):
+    """Pairs of tanks joined by orifices, one pair full: levels are equal from a time on."""
+    n, c = int(rng.integers(1, 4)), 10.0 ** rng.uniform(-1, 1)
+    high = rng.uniform(1.0, 3.0, n)
+    end = np.tile(0.5 * high, 2)
+    return Case(
+        lambda t, y: orifices(y, c), np.max(np.sqrt(high)) / c * rng.uniform(1.5, 6.0),
+        np.append(high, np.zeros(n)), end, *tolerances(rng), float(np.linalg.norm(end)),
+    )  # fmt: skip
+
+
+def orifices(levels, c=0.5):
+    """Return the rates of the levels of pairs of tanks, the first ones of all pairs first."""
+    n = levels.size // 2
+    difference = levels[:n] - levels[n:]
+    flow = c * np.sign(difference) * np.sqrt(np.abs(difference))
+    return np.append(-flow, flow)
+
+
+def sliding(rng):
+    """z' = b − a sgn(z − c) with |b| < a: slides along c, as Filippov defines it."""
+    a, c = 10.0 ** rng.uniform(-1, 2), rng.uniform(-0.5, 0.5)
+    b = a * rng.uniform(-0.9, 0.9)
+    t_end = (1.0 - c) / (a - b) * rng.uniform(1.2, 5.0)
+    return Case(lambda t, y: b - a * np.sign(y - c), t_end, [1.0], [c], *tolerances(rng), 1.0)
+
+
+def dry_friction(rng):
+    """A mass that friction brings to rest: place and speed."""
+    v, mu = 10.0 ** rng.uniform(-1, 1, 2)
+    end = np.array([v**2 / (2.0 * mu), 0.0])
+    return Case(
+        lambda t, y: np.array([y[1], -mu * np.sign(y[1])]),
+        v / mu * rng.uniform(1.2, 4.0), [0.0, v], end, *tolerances(rng), max(v, float(end[0])),
+    )  # fmt: skip
+
+
+def slope_that_jumps(rng):
+    """A decay that becomes 10 to 100 times as fast below a level."""
+    c, k, w = rng.uniform(0.3, 0.7), 10.0 ** rng.uniform(1, 2), rng.uniform(0.1, 1.0)
+    first = np.log1p((1.0 - c) * w / 0.3) / w
+    rest = first * rng.uniform(0.2, 2.0)
+    end = c + 0.3 / (w * k) * np.expm1(-w * k * rest)
+    return Case(
+        lambda t, y: -w * np.where(y > c, 1.0, k) * (y - c) - 0.3,
+        first + rest, [1.0], [end], *tolerances(rng), 1.0,
+    )  # fmt: skip
+
+
+def moving_target(rng):
+    """A speed held by a switch on one that moves, and its integral."""
+    a, w = 10.0 ** rng.uniform(0.3, 2), rng.uniform(1.0, 6.0)
+    d, t_end = rng.uniform(0.1, 0.9) / w, rng.uniform(2.0, 6.0)
+    reach = brentq(lambda t: 1.0 - a * t - d * np.sin(w * t), 0.0, 2.0 / a + 2.0 * d / a + 1.0)
+    place = reach - a * reach**2 / 2.0 + d / w * (np.cos(w * reach) - np.cos(w * t_end))
+    return Case(
+        lambda t, y: np.array([-a * np.sign(y[0] - d * np.sin(w * t)), y[0]]), t_end, [1.0, 0.0],
+        np.array([d * np.sin(w * t_end), place]), *tolerances(rng), max(1.0, abs(place)),
+    )  # fmt: skip
+
+
+def sliding_beside_stiff(rng):
+    """A sum that slides to rest beside stiff components, mixed by a rotation."""
+    q, t_end = int(rng.integers(1, 4)), rng.uniform(1.5, 4.0)
+    turn = np.linalg.qr(rng.normal(size=(1 + q, 1 + q)))[0]
+    a, stiff = 10.0 ** rng.uniform(0, 2), 10.0 ** rng.uniform(0, 5, q)
+
+    def fun(t, y):
+        z = turn.T @ y
+        return turn @ np.append(-a * np.sign(z[0]), -stiff * (z[1:] - np.cos(t)) - np.sin(t))
+
+    end = turn @ np.append(0.0, np.full(q, np.cos(t_end)))
+    return Case(fun, t_end, turn @ np.ones(1 + q), end, *tolerances(rng), np.sqrt(1.0 + q))
+
+
 FAMILIES = (
     one_jump_up, one_jump_down, steps_up_and_down, smooth_jump, jump_with_relaxation, breakaway, equal_jumps,
-    jump_at_a_place, moving_threshold,
+    jump_at_a_place, moving_threshold, power_at_rest, tanks, sliding, dry_friction, slope_that_jumps,
 )  # fmt: skip
+LONG = (moving_target, sliding_beside_stiff)
+"""What may take more calls than a run is given here, for it slides where much else changes."""
 
 
 def run(case, method=MEBDF, **options):
@@ -241,6 +328,24 @@ def test_each_family_is_right(family):
     assert [found for found in errors if found is None or found > 100.0] == []
 
 
+@pytest.mark.parametrize("family", LONG)
+def test_a_long_slide_is_never_wrong(family):
+    # BDF and Radau end none of them.
+    errors = [error(case, run(case)[0]) for case in random_cases([family], 6)]
+    assert [found for found in errors if found is not None and found > 100.0] == []
+
+
+def test_rest_takes_no_more_than_twice_the_calls_of_bdf():
+    ratios = []
+    for case in random_cases([power_at_rest, tanks], 40):
+        (solution, calls), (peer, by_bdf) = run(case), run(case, "BDF")
+        assert error(case, solution) <= 100.0
+        if (found := error(case, peer)) is not None and found <= 100.0:
+            ratios.append(calls / by_bdf)
+    assert np.exp(np.mean(np.log(ratios))) < 1.0
+    assert np.mean(np.array(ratios) < 2.0) > 0.9
+
+
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_two_thousand_jumps_up_and_down():
@@ -289,6 +394,47 @@ def test_every_algebra_and_form_follows_the_jump(way):
     assert solution.success
     assert abs(solution.y[0, -1] - 500.5) < 0.5
     assert calls < 1000
+
+
+TOLERANCES = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8]
+ORIFICES: dict[str, tuple[Callable[..., Any], int, dict[str, Any]]] = {
+    "plain": (lambda t, y: orifices(y), 1, {}),
+    "mass": (lambda t, y: [2.0, 3.0] * orifices(y), 1, {"mass": [2.0, 3.0]}),
+    "implicit": (lambda t, y, slope: slope - orifices(y), 1, {"slope": np.zeros(2)}),
+    "LAPACK": (lambda t, y: orifices(y), 35, {}),
+}
+
+
+@pytest.mark.parametrize("rtol", TOLERANCES)
+@pytest.mark.parametrize("way", ORIFICES)
+def test_every_algebra_and_form_comes_to_rest(way, rtol):
+    # They took up to 80,000 calls at 1e-4 and did not end below.
+    fun, n, options = ORIFICES[way]
+    case = Case(fun, 20.0, np.repeat([2.0, 0.0], n), np.ones(2 * n), rtol, 1e-3 * rtol, 1.0, np.sqrt(n))
+    solution, calls = run(case, **options)
+    assert error(case, solution) < 10.0
+    assert calls < (700 if n == 1 else 1500)
+
+
+@pytest.mark.parametrize("rtol", TOLERANCES)
+def test_a_rest_at_a_jump(rtol):
+    case = Case(lambda t, y: -np.sign(y), 2.0, [1.0], [0.0], rtol, 1e-3 * rtol, 1.0)
+    solution, calls = run(case)
+    assert error(case, solution) < 10.0
+    assert calls < 4000
+
+
+@pytest.mark.parametrize("rtol", TOLERANCES)
+def test_a_run_that_makes_no_progress_says_so(rtol):
+    """The flow as an algebraic variable can be told from rest no better than the root of rounding."""
+
+    def fun(t, y):
+        return np.append(y[2] * np.array([-1.0, 1.0]), y[2] + orifices(y[:2])[0])
+
+    case = Case(fun, 20.0, [2.0, 0.0, np.sqrt(0.5)], np.ones(2), rtol, 1e-3 * rtol, 1.0)
+    solution, calls = run(case, mass=[1.0, 1.0, 0.0])
+    assert calls < MOST
+    assert not solution.success or error(case, solution) < 10.0
 
 
 def compiled_problem(slope):

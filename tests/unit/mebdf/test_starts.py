@@ -163,6 +163,25 @@ def test_an_integration_of_index_3_goes_on_at_breakpoints(rtol):
     np.testing.assert_allclose(solution.y[:2, -1], problem.end[:2], atol=100.0 * rtol)
 
 
+@pytest.mark.filterwarnings("ignore:The values at t:UserWarning")
+@pytest.mark.parametrize("rtol", 10.0 ** -np.arange(3.0, 10.0))
+def test_values_of_index_3_that_a_run_has_left_are_a_start(rtol):
+    # 41 of these 210 were refused, and the values at a terminal event at 5 of 7 tolerances.
+    problem = pendulum(3)
+    options = {"mass": problem.mass, "index": problem.index, "rtol": rtol, "atol": rtol}
+
+    def passes(t, y):
+        return y[0] + 0.5
+
+    passes.terminal = True
+    first = solve(problem.fun, (0.0, 10.0), problem.y0, events=passes, **options)
+    again = solve(problem.fun, (first.t[-1], 10.0), first.y[:, -1], **options)
+    assert again.success
+    whole = solve(problem.fun, (0.0, 10.0), problem.y0, **options)
+    for i in np.linspace(1, whole.t.size - 2, 30).astype(int):
+        MEBDF(problem.fun, whole.t[i], whole.y[:, i], 10.0, **options)
+
+
 def chain(n):
     """Diffusion along a line whose odd nodes hold the mean of their neighbours."""
     matrix = csr_array(diags_array([np.ones(n - 1), np.full(n, -2.0), np.ones(n - 1)], offsets=[-1, 0, 1]))

@@ -46,10 +46,12 @@ from mebdf.kernels.phases import (
     STEP_ACCEPTED,
 )
 from mebdf.kernels.state import HISTORY, F, Y, new_state
-from mebdf.mass import LARGEST, MassMatrix, read_mass, with_index
+from mebdf.mass import LARGEST, MassMatrix, read_mass, split, with_index
 from mebdf.reasons import reason
 
 ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
+OF_TOLERANCE: Final = 0.2
+"""Power of the tolerance to which steps grow with it."""
 RENEWED: Final = 0.5
 """Decompositions a step that make the Jacobian be checked; a right one takes a third or so."""
 
@@ -199,15 +201,22 @@ class MEBDF(OdeSolver):
     ) -> tuple[MassMatrix, FloatArray, str]:
         """Find consistent values; return the matrix with the right index, y', and what was changed."""
         t = float(self.t)
+        scale = self._sizes + self.rtol * np.abs(self.y)
         # A step leaves variables of higher index as wrong as its weights allow.
-        step = 1.0 if self.t_old is None else min(abs(self._state.number("h_last")), 1.0)
-        scale = (self._sizes + self.rtol * np.abs(self.y)) / step ** (mass.index - 1)
+        step = self._step_to_come(fun, mass, scale) if self.t_old is None else self._state.number("h_last")
+        scale /= min(abs(step), 1.0) ** (mass.index - 1)
         self.y, slope, warning = consistent(fun, jacobian, t, self.y, self._ends[0], mass, scale, self._names)
         if self.t_old is None:
             found = check_index(jacobian, t, self.y, mass.matrix, mass.index, self._typical, self._names)
             if found is not mass.index:
                 self._index, mass = found, with_index(mass.matrix, found, self._test_algebraic)
         return mass, slope, warning
+
+    def _step_to_come(self, fun: Callable[..., FloatArray], mass: MassMatrix, scale: FloatArray) -> float:
+        """Return the size of step that the tolerance leads to, in a method of middle order."""
+        slope = split(mass).slope(fun(float(self.t), self.y)) if np.any(mass.index > 1) else np.zeros(1)
+        rate = float(np.max(np.abs(slope) / (1.0 + np.abs(self.y))))
+        return float(np.min(scale / (1.0 + np.abs(self.y)))) ** OF_TOLERANCE / rate if rate > 0.0 else 1.0
 
     @property
     def _typical(self) -> FloatArray:

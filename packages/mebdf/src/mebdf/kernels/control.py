@@ -27,6 +27,14 @@ LEAST_STEP = 10.0 * float(np.finfo(np.float64).eps)
 """Smallest step relative to the time."""
 ROUNDED = 1.0e-8
 """Relative change of a step by the rounding of the time above which the step itself is rounded."""
+VAIN = 4
+"""Trouble by a failure of Newton's iteration with a new Jacobian; a step takes one away."""
+TROUBLE = 3 * VAIN
+"""Trouble in which a stage looks between two values. More there is only after a stage has ended there."""
+LARGER_CHANGE = 30.0
+"""Largest distance of stage 2 from its extrapolation over that of stage 1."""
+NO_CHANGE = 1.0e-3
+"""Distance from the extrapolation, as an error in units of the tolerance, that stage 1 is given at least."""
 FAILED_NEWTON = 0.25
 """Factor of the step when Newton's iteration fails although the Jacobian is new."""
 
@@ -44,6 +52,21 @@ def norm(rows: FloatArray, row: int, weight: int) -> float:
 def error_weight(places: NDArray[np.int64]) -> int:
     """Return the row that weighs errors."""
     return at.ERROR_WEIGHT if places.size > 0 else at.WEIGHT
+
+
+@inlined
+def error_of(state: Numbers, rows: FloatArray, row: int, weight: int) -> float:
+    """Return the distance of a row from the extrapolation as an error in units of the tolerance."""
+    total = 0.0
+    for i in range(rows.shape[1]):
+        total += ((rows[row, i] - rows[at.PREDICTED, i]) * rows[weight, i]) ** 2
+    return SCALARS[state.k, 3] * math.sqrt(total / rows.shape[1])
+
+
+@inlined
+def largest_error(state: Numbers) -> float:
+    """Return the largest distance with which the present stage 1 or 2 leads to the next one."""
+    return 1.0 if state.stage == 1 else LARGER_CHANGE * max(state.error, NO_CHANGE)
 
 
 @inlined
@@ -140,6 +163,7 @@ def newton_failed(state: Numbers, rows: FloatArray, massive: bool) -> None:
     else:
         state.wary = min(2 * state.wary + CAUTION, MOST_CAUTION)
         state.vain += 1
+        state.trouble = max(state.trouble, min(state.trouble + VAIN, TROUBLE))
         reject(state, rows, FAILED_NEWTON, at.DELTA, at.WEIGHT)
         if not massive:
             return
@@ -186,7 +210,8 @@ def choose(
         return
     state.k = best
     largest = state.settings.largest_growth
-    if k == 1:
-        # Nothing higher than ∇² is rescaled: it is magnified less than ∇⁴ by the usual limit.
+    if k == 1 and state.trouble <= TROUBLE:
+        # Nothing higher than ∇² is rescaled: it is magnified less than ∇⁴ by the usual limit. What rests on a
+        # jump shows no error: a long step would not see that it leaves it.
         largest *= largest
     change_step(state, rows, _not_too_short(state, min(factor, largest)))

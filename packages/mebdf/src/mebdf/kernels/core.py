@@ -62,7 +62,9 @@ from mebdf.kernels.state import NUMBERS, Numbers
 MOST_VAIN: Final = 100
 """Failures of Newton's iteration with a new Jacobian after which the progress is looked at."""
 LEAST_PROGRESS: Final = 1.0e-6
-"""Share of the remaining time that must have been covered meanwhile: else some 1e8 failures would follow."""
+"""Share of the time, past or remaining, that must have been covered meanwhile: else some 1e8 would follow."""
+MOST_CALLS: Final = 8000
+"""Evaluations, with such a failure among them, after which it is looked at, too."""
 ROUNDING: Final = 1.0e-10
 """Distance from the end, in steps, that is none."""
 
@@ -122,7 +124,8 @@ def _begin_step(
     if not abs(h) > LEAST_STEP * abs(state.t) and (state.last == 0 or h == 0.0):
         state.reason = STEP_TOO_SMALL
         return FAILED
-    if state.vain >= MOST_VAIN and _stands_still(state):
+    calls = state.n_f - state.f_mark
+    if (state.vain >= MOST_VAIN or (state.vain > 0 and calls >= MOST_CALLS)) and _stands_still(state):
         state.reason = NO_PROGRESS
         return FAILED
     set_weights(state, rows, mass, places)
@@ -161,11 +164,11 @@ def _begin_step(
 
 @inlined
 def _stands_still(state: Numbers) -> bool:
-    """Tell whether the last failures have brought next to no progress, and count anew."""
+    """Tell whether there was next to no progress since the last look, and count anew."""
     progress, left = abs(state.t - state.t_mark), abs(state.t_end - state.t)
     state.vain = 0
-    state.t_mark = state.t
-    return progress < LEAST_PROGRESS * left
+    state.t_mark, state.f_mark = state.t, state.n_f
+    return progress < LEAST_PROGRESS * min(left, max(abs(state.t), progress))
 
 
 @inlined
@@ -197,6 +200,7 @@ def _accept(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> None
     if places.size == 0 or state.equal_steps > 1:
         state.failures = 0
     state.wary = max(state.wary - 1, 0)
+    state.trouble = max(state.trouble - 1, 0)
     state.bad = -1
     state.worst = -1
     state.carried = state.stage > 3

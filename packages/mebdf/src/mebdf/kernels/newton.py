@@ -23,7 +23,16 @@ from mebdf.kernels.acceptance import (
     judge_beside_rounding,
 )
 from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
-from mebdf.kernels.control import CAUTION, error_weight, newton_failed, norm, reject
+from mebdf.kernels.control import (
+    CAUTION,
+    TROUBLE,
+    error_of,
+    error_weight,
+    largest_error,
+    newton_failed,
+    norm,
+    reject,
+)
 from mebdf.kernels.elementary import power
 from mebdf.kernels.history import push
 from mebdf.kernels.jit import inlined, kernel
@@ -41,6 +50,7 @@ from mebdf.kernels.phases import (
 )
 from mebdf.kernels.start import remember_not_finite
 from mebdf.kernels.state import Numbers
+from mebdf.kernels.turning import MIXED, TOO_FAR, WATCHED, begin_near, judge_mixture, keep_residual, look_back
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
@@ -50,10 +60,6 @@ LATE: Final = 5
 """Failures in a row after which an error may be that of the algebraic values which the step starts from."""
 FORGIVEN: Final = 10.0
 """Most that such values may be wrong, in units of the tolerance."""
-LARGER_CHANGE: Final = 30.0
-"""Largest distance of stage 2 from its extrapolation over that of stage 1."""
-NO_CHANGE: Final = 1.0e-3
-"""Distance from the extrapolation, as an error in units of the tolerance, that stage 1 is given at least."""
 
 
 @inlined
@@ -66,20 +72,22 @@ def start_stage(
     """Fill the known part of the stage, predict, and ask for f where it is not known."""
     stage, h = state.stage, state.h
     _set_constant(state, rows)
-    state.iteration = state.evaluated = 0
+    state.iteration = state.evaluated = state.between = state.halvings = 0
     state.overshot = 0.0
     state.phase = ITERATE
     state.t_eval = state.t + (2.0 * h if stage == 2 else h)
     massive = places.size > 0
+    # The slope of a stage that lies on a jump is no rate of either side.
+    known = state.trouble < WATCHED - 1
     if stage == 3:
         _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
         if massive and state.higher == 0:
             multiply(mass, places, rows, at.F_1, at.F)
-        if state.higher == 0:
+        if state.higher == 0 and known:
             return 0
     elif stage == 1 and state.carried == 1:
         _copy(rows, at.Y_2, at.Y, at.F_2, at.F)
-        if not massive:
+        if not massive and known:
             return 0
     else:
         _copy(rows, at.PREDICTED, at.Y, at.F, at.F)
@@ -147,10 +155,18 @@ def iterate(
     """
     verdict = IN_DOUBT
     if phase == ITERATE:
+        if state.trouble >= TROUBLE:
+            keep_residual(rows)
         if places.size == 0:
             _set_residual(state, rows)
         else:
             _set_residual_with_mass(state, rows, mass, places)
+        if state.trouble >= TROUBLE and state.iteration > 0:
+            if look_back(state, rows, mass, places):
+                return _ask(state)
+            if state.between == TOO_FAR:
+                finish_stage(state, rows, mass, places)
+                return 0
         state.n_solves += 1
         if state.outside == 1:
             state.phase = CORRECT
@@ -182,7 +198,11 @@ def iterate(
 @inlined
 def _correct(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int:
     """Add the correction; return whether the stage solves its formula, as far as is known."""
+    if state.trouble >= WATCHED - 1 and state.halvings == 0:
+        begin_near(state, rows)
     size = _add_correction(state, rows)
+    if state.between == MIXED:
+        return judge_mixture(state, size)
     if not _converging(state, size):
         if not math.isfinite(size):
             remember_not_finite(state, rows)
@@ -230,7 +250,7 @@ def _set_residual_with_mass(
         if is_algebraic(places, i):
             residual = rows[at.F, i]
             before = abs(rows[at.RESIDUAL, i])
-            if state.iteration > 0 and abs(residual) <= PROVED * before:
+            if state.iteration > 0 and state.between == 0 and abs(residual) <= PROVED * before:
                 # The Jacobian was seen to remove it.
                 rows[at.SEEN, i] = max(rows[at.SEEN, i], before)
         else:
@@ -304,10 +324,7 @@ def _goes_on(state: Numbers, rows: FloatArray, weight: int) -> bool:
     Beside a jump a stage may have a solution on either side. The extended formula would take the difference
     of their slopes for a derivative. The step is then that of stage 1, which has passed its test.
     """
-    for i in range(rows.shape[1]):
-        rows[at.SCRATCH, i] = rows[at.Y_2, i] - rows[at.PREDICTED, i]
-    change = SCALARS[state.k, 3] * norm(rows, at.SCRATCH, weight)
-    return change <= LARGER_CHANGE * max(state.error, NO_CHANGE)
+    return error_of(state, rows, at.Y_2, weight) <= largest_error(state)
 
 
 @inlined

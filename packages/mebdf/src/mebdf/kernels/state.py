@@ -201,6 +201,8 @@ class Numbers:
     """Steps to come in which every stage must show by an evaluation that it solves its formula."""
     vain: int
     """Failures of Newton's iteration with a new Jacobian since ``t_mark``."""
+    f_mark: int
+    """Evaluations until ``t_mark``."""
     outside: int
     """Whether the caller keeps the Jacobian and solves with the iteration matrix."""
     finite: int
@@ -217,6 +219,12 @@ class Numbers:
     """Whether the next Jacobian is that of the predicted value."""
     reference: int
     """Sign of the determinant for short steps, 0 while it is unknown."""
+    between: int
+    """Whether the solution of the stage lies between two known values, see :mod:`mebdf.kernels.turning`."""
+    halvings: int
+    """Halvings of their distance in the present stage."""
+    trouble: int
+    """Measure of the failures of Newton's iteration in the last steps."""
 
 
 def _type_of(fields: type) -> np.dtype[np.void]:
