@@ -9,7 +9,7 @@ from measures.base import Numbers
 from mebdf.consistent import UNCHANGED
 from mebdf.index import FREQUENCIES
 from mebdf.jacobian import LARGEST_IN_CORE
-from mebdf.kernels import acceptance, control, core, matrix, newton, state
+from mebdf.kernels import acceptance, control, core, matrix, state, turning
 from mebdf.kernels.state import Settings
 from tribodyn.papers.cheng_2022.runs import Runs
 
@@ -30,8 +30,8 @@ CONSTANTS: Final[dict[str, float]] = {
     "evaluations over rate": state.EVALUATIONS,
     "price": state.PRICE,
     "least price": state.LEAST_PRICE,
-    "change of stage 2": newton.LARGER_CHANGE,
-    "least error beside stage 2": newton.NO_CHANGE,
+    "change of stage 2": control.LARGER_CHANGE,
+    "least error beside stage 2": control.NO_CHANGE,
     "doubtful residual": Settings.doubtful,
     "tiny correction": Settings.tiny,
     "share left that proves": acceptance.PROVED,
@@ -40,7 +40,10 @@ CONSTANTS: Final[dict[str, float]] = {
     "negligible residual": acceptance.NOTHING,
     "step after a refuted Jacobian": control.FAILED_NEWTON,
     "most cautious steps": control.MOST_CAUTION,
+    "failures before a look back": control.TROUBLE / control.VAIN,
+    "narrow": turning.NARROW,
     "most failures": core.MOST_VAIN,
+    "most calls": core.MOST_CALLS,
     "least progress": core.LEAST_PROGRESS,
     "change left alone": UNCHANGED,
     "largest inverse": matrix.LARGEST_INVERSE,
