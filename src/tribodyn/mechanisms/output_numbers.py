@@ -1,12 +1,13 @@
 """Key results of the outputs of a mechanism: how far they are from the ideal motion."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
@@ -15,9 +16,12 @@ from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, entries, peak, settled, sustained
 from tribodyn.results.summary import KeyResult
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 _AT_REST: Final = 1.0e-9
 """Change of an ideal value in one step, over its range, that counts as zero."""
-Reduction = Callable[[xr.Dataset, FloatArray], float]
+Reduction: TypeAlias = "Callable[[xr.Dataset, FloatArray], float]"
 
 
 def _rms(dataset: xr.Dataset, error: FloatArray) -> float:
@@ -30,7 +34,7 @@ def _rms(dataset: xr.Dataset, error: FloatArray) -> float:
     )
 
 
-Reading = Callable[[xr.Dataset, int], float]
+Reading: TypeAlias = "Callable[[xr.Dataset, int], float]"
 
 
 def _direction(sign: float) -> Reading:

@@ -1,19 +1,22 @@
-"""From plain arrays to the dataset a run returns, with units and meanings attached."""
+"""From plain arrays to the dataset a run returns, with units and meanings attached.
+
+Here and in modules that every command imports, xarray is imported where it is used: it takes half a second.
+"""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
-import xarray as xr
-from numpy.typing import ArrayLike, NDArray
-from xarray.indexes import PandasIndex
 
 from tribodyn.results.variables import VARIABLES, Variable
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
 
 
 def build(
@@ -60,6 +63,8 @@ def variable(dims: tuple[str, ...], values: NDArray[Any], about: dict[str, Any])
 
     The constructor of xarray imports pint and dask to check the type of the array, which takes half a second.
     """
+    import xarray as xr
+
     return xr.Variable(dims, values, about, fastpath=True)
 
 
@@ -67,10 +72,16 @@ def assembled(
     data: Mapping[str, xr.Variable], coordinates: Mapping[str, xr.Variable], attributes: Mapping[str, Any]
 ) -> xr.Dataset:
     """Return variables of :func:`variable` and coordinates as a dataset, with an index of each dimension."""
+    import xarray as xr
+
     return xr.Dataset(data_vars=data, coords=_indexed(coordinates), attrs=attributes)
 
 
 def _indexed(given: Mapping[str, xr.Variable]) -> xr.Coordinates:
+    import pandas as pd
+    import xarray as xr
+    from xarray.indexes import PandasIndex
+
     indexes = {
         name: PandasIndex(pd.Index(values.values), name, values.dtype)
         for name, values in given.items()

@@ -9,13 +9,13 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray as xr
-from numpy.typing import NDArray
 
 from tribodyn.core.quoting import brief
 
 if TYPE_CHECKING:
     import netCDF4
+    import xarray as xr
+    from numpy.typing import NDArray
 
 _ONE_AT_A_TIME: Final = threading.Lock()
 _MARK: Final = b"\ntribodyn crc32 "
@@ -123,6 +123,8 @@ def dataset_of(content: bytes) -> xr.Dataset:
         raise ValueError("its checksum is wrong")
     with _ONE_AT_A_TIME:
         _refuse_bombs(content)
+        import xarray as xr
+
         return xr.load_dataset(content, engine="netcdf4", decode_times=False, decode_timedelta=False)
 
 

@@ -1,24 +1,28 @@
 """Numbers read off a result: what key results are made of."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.attributes import CARRIED
 from tribodyn.results.dataset import json_attribute
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 SHORT: Final = 0.01
 """Share of the time that impacts may last; a sustained maximum leaves it out."""
 _ROUNDING: Final = 1e-9
 
-_Read: TypeAlias = dict[object, tuple[xr.Dataset, NDArray[Any]]]
+_Read: TypeAlias = "dict[object, tuple[xr.Dataset, NDArray[Any]]]"
 _read: Final[ContextVar[_Read | None]] = ContextVar("_read", default=None)
 """Values read off results, by keys that hold as long as the results are held, too."""
 
@@ -48,7 +52,7 @@ def entries(dataset: xr.Dataset, name: str) -> NDArray[Any]:
     """Return the values of a variable, numbers or names."""
     # As dataset[name] it would be put together with its coordinates first, which takes longer than all else.
     variable = dataset.variables[name]
-    if not isinstance(variable, xr.IndexVariable):
+    if variable.dims != (name,):
         return np.asarray(variable.values)
     # Of a dimension they are kept in its index, which returns them four times as fast.
     return _once(dataset, name, lambda: np.asarray(variable.to_index()))

@@ -3,12 +3,13 @@
 The variable and attribute tables say it; what reads a result afterwards need not ask again.
 """
 
+from __future__ import annotations
+
 import json
 from collections.abc import Container, Mapping
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.core import toml
 from tribodyn.core.quantities import TIME
@@ -27,6 +28,9 @@ from tribodyn.results.attributes import (
     VARIABLE_ATTRIBUTES,
 )
 from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, REVERSAL, VARIABLES, Variable
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 LARGEST: Final = 1e60
 """Size of a number, at most: products and squares of numbers are numbers, too."""

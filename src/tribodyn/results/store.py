@@ -7,10 +7,9 @@ import os
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
@@ -20,6 +19,9 @@ from tribodyn.results.atomic import write_together
 from tribodyn.results.netcdf import attributes_of, dataset_of, netcdf_parts
 from tribodyn.results.schema import Kinds, check
 from tribodyn.results.summary import Summary
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RESULT: Final = "result.nc"
 POINTS: Final = "points"

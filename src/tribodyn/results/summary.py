@@ -6,14 +6,16 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Final, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
 from tribodyn.results.dataset import json_attribute
 from tribodyn.results.reading import column, reading_once, statistic
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)

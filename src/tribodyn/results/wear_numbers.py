@@ -1,16 +1,20 @@
 """Key results of wear: of a campaign, or the linear estimate of one run."""
 
+from __future__ import annotations
+
 import math
 from types import EllipsisType
-from typing import Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.reading import column, cycles, peak
 from tribodyn.results.summary import KeyResult
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Part: TypeAlias = Literal["both", "bore", "shaft"]
 """Partners whose depth counts."""

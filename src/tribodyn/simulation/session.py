@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from tribodyn.core.digests import digest
 from tribodyn.core.problem import Problem, Solution
@@ -25,6 +23,9 @@ from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
 from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
 from tribodyn.simulation import session as hashes
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Progress = Callable[[float], None] | None
 """Called with the simulated time [s] after every accepted step."""

@@ -6,10 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Final, cast
+from typing import TYPE_CHECKING, Final, cast
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.cases import groups
 from tribodyn.cases.case import Case
@@ -22,6 +21,9 @@ from tribodyn.simulation import checkpoint as checkpoints
 from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_campaign
 from tribodyn.simulation.session import Session
 from tribodyn.wear import Archard, JumpControl, worn_volume
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _ROUNDING: Final = 1.0e-9
 

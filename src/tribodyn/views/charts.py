@@ -4,13 +4,14 @@ A chart has panels, a panel has curves and marks; :func:`over` makes of them wha
 draws.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import stepped
@@ -18,6 +19,9 @@ from tribodyn.views.events import impact_time, impact_windows, reversal_times, s
 from tribodyn.views.playback import time_unit
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import finite, peak, series
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOST: Final = 6000
 """Points of a curve above which it is thinned: three for each pixel of a wide screen."""

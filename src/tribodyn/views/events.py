@@ -1,10 +1,16 @@
 """Reversals of the motion."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.series import peak, series
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def impact_time(dataset: xr.Dataset) -> float:

@@ -1,15 +1,19 @@
 """Times at which motion is drawn: those of the time slider, and those that cubics between rows need."""
 
-from typing import Any, Final
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray as xr
-from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import packed
 from tribodyn.views.events import direction
 from tribodyn.views.series import series
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
 
 _EVEN: Final = 241
 """Moments of results without pressure frames of their own."""

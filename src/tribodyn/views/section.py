@@ -1,10 +1,13 @@
 """Types of sections and chapters of the report."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-import xarray as xr
+if TYPE_CHECKING:
+    import xarray as xr
 
 Payload: TypeAlias = Mapping[str, Any]
 """Data for the script of a figure: texts, numbers, lists, mappings and arrays."""

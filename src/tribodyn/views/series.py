@@ -1,10 +1,16 @@
 """Variables of a result as arrays to draw, and what is read off them."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.reading import column
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def series(dataset: xr.Dataset, name: str, scale: float = 1.0) -> FloatArray:

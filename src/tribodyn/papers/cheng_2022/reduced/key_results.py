@@ -1,12 +1,13 @@
 """Key results of the vane mechanism."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.reading import (
@@ -22,6 +23,9 @@ from tribodyn.results.reading import (
 )
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def _angle_error(dataset: xr.Dataset) -> FloatArray:
