@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import subprocess
 import sys
 from pathlib import Path
@@ -19,7 +20,7 @@ class Kernels(BuildHookInterface[Any]):
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Make the library; an editable installation takes what `make kernels` makes."""
-        if version == "editable" or (sys.platform, os.uname().machine) != ("linux", "x86_64"):
+        if version == "editable" or (sys.platform, platform.machine()) != ("linux", "x86_64"):
             return
         root = Path(self.root)
         places = [root / "src", root / "packages" / "mebdf" / "src"]
