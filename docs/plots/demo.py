@@ -21,10 +21,7 @@ def draw_orbit(axes: Axes, result: xr.Dataset) -> None:
     """Path of the two ends of the trunnion axis inside the clearance circle."""
     clearance = 1e6 * result.attrs["clearance"]
     half = 0.5 * result.attrs["joint_length"]
-    for z, colour, label, corner in (
-        (half, FORWARD, "top end", 0.02),
-        (-half, REVERSE, "bottom end", 0.94),
-    ):
+    for z, colour, label, corner in ((half, FORWARD, "top end", 0.02), (-half, REVERSE, "bottom end", 0.94)):
         x = 1e6 * (result["e_x"] - z * np.tan(result["phi_y"]))
         y = 1e6 * (result["e_y"] - z * np.tan(result["phi_x"]))
         axes.plot(x, y, color=colour, linewidth=0.9)

@@ -52,8 +52,7 @@ def goals(found: Found) -> Lines:
     growth = many["peak memory [MB]"] - found["long_run"]["10"]["peak memory [MB]"]
     more, rows = max(0.0, growth), many["result [MB]"]
     yield row(
-        "no more memory for 400 cycles than for 10",
-        f"{more:.0f} MB more, for a result of {rows:.0f} MB",
+        "no more memory for 400 cycles than for 10", f"{more:.0f} MB more, for a result of {rows:.0f} MB"
     )
     for name, key, most in (
         ("help", "seconds", 0.5),

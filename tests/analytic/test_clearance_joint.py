@@ -19,12 +19,7 @@ from tribodyn.joints.clearances import Clearance, assemble, places, pose_at, tab
 from tribodyn.joints.point_contact import point_table
 from tribodyn.kernels.joints.bushing import pressure_field as bushing_field
 from tribodyn.kernels.joints.surface.data import SurfaceData
-from tribodyn.kernels.joints.surface.joint import (
-    pressure_field,
-    report,
-    wrench,
-    wrench_and_jacobian,
-)
+from tribodyn.kernels.joints.surface.joint import pressure_field, report, wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 
 MakeClearance = Callable[..., Clearance]

@@ -7,12 +7,7 @@ import numpy as np
 import pytest
 
 from tribodyn.joints.clearances import Clearance, assemble, places, pose_at
-from tribodyn.kernels.joints.surface.joint import (
-    pressure_field,
-    report,
-    slide,
-    update_entry_velocity,
-)
+from tribodyn.kernels.joints.surface.joint import pressure_field, report, slide, update_entry_velocity
 from tribodyn.kernels.joints.surface.memory import new_memory, note_peaks
 from tribodyn.wear import Archard
 

@@ -194,10 +194,7 @@ def test_functions_that_do_not_fit_are_refused_and_failing_ones_end_the_run() ->
     for functions, words in (
         ({}, r"controllers\.servo: without a gain it needs a function: td\.simulate"),
         ({"servos": lambda t: 0.0}, 'controllers: .*did you mean "servo"'),
-        (
-            {"servo": lambda force: 0.0},
-            "its argument is force; allowed: t, angle, speed",
-        ),
+        ({"servo": lambda force: 0.0}, "its argument is force; allowed: t, angle, speed"),
         ({"servo": 3.0}, "its argument is float"),
     ):
         with pytest.raises(InputError, match=words):

@@ -56,10 +56,7 @@ def test_a_seizure_is_refused_in_words() -> None:
     assert caught.value.key == "joint.clearance"
     needed = float(str(caught.value).split("more than ")[1].split(" um")[0]) * 1e-6
     expanded(
-        Cylinder(6e-3, 1.01 * needed, 20e-3),
-        trunnion=ALPHA_T * RISE,
-        bushing=ALPHA_B * RISE,
-        casing=CASING,
+        Cylinder(6e-3, 1.01 * needed, 20e-3), trunnion=ALPHA_T * RISE, bushing=ALPHA_B * RISE, casing=CASING
     )
 
 

@@ -84,11 +84,7 @@ def test_a_crown_takes_pressure_from_the_edge():
         ({"joint.form.chamfer_length": "9 mm", "joint.form.chamfer_depth": "1 um"}, "too little"),
         ({"joint.form.crown": "1 um", "joint.contact": "point-johnson"}, "no form"),
         (
-            {
-                "joint.form.chamfer_length": "1 mm",
-                "joint.form.chamfer_depth": "1 um",
-                "solver.grid.z": 4,
-            },
+            {"joint.form.chamfer_length": "1 mm", "joint.form.chamfer_depth": "1 um", "solver.grid.z": 4},
             "points of their own",
         ),
     ],

@@ -70,11 +70,7 @@ def test_the_path_integrals_do_not_depend_on_the_rows(base):
 
 WHOLE_NODES = 2.0 * math.pi * 7 / 96
 """Seven nodes of the contact's grid."""
-TURNING = {
-    "journal.tilt": True,
-    "journal.speed": "30 rad/s",
-    "joint.friction_coefficient": 0.1,
-}
+TURNING = {"journal.tilt": True, "journal.speed": "30 rad/s", "joint.friction_coefficient": 0.1}
 PAIRS = (("e_x", "e_y"), ("e_x_dot", "e_y_dot"), ("phi_y", "phi_x"), ("F_cx", "F_cy"), ("F_fx", "F_fy"))
 """Vectors in the plane of the bushing; an axis leans along (φ_y, φ_x), moments act along (M_y, M_x)."""
 

@@ -82,13 +82,7 @@ JOURNALS: dict[str, dict[str, Any]] = {
     "dry": {},
     "dry, turning, tilting": {"speed": 120.0, "tilts": True, "coefficient": 0.2, "spin": 3e-4},
     "oil": {"oil": True},
-    "oil, turning, tilting": {
-        "oil": True,
-        "speed": 300.0,
-        "tilts": True,
-        "coefficient": 0.1,
-        "spin": 3e-4,
-    },
+    "oil, turning, tilting": {"oil": True, "speed": 300.0, "tilts": True, "coefficient": 0.1, "spin": 3e-4},
 }
 
 

@@ -103,10 +103,7 @@ def test_errors_by_the_direction_of_motion() -> None:
     assert forward * backward > 0.0
 
 
-@pytest.mark.parametrize(
-    ("key", "said"),
-    [("angle_error_limit", "the limit of this error is error_limit")],
-)
+@pytest.mark.parametrize(("key", "said"), [("angle_error_limit", "the limit of this error is error_limit")])
 def test_a_limit_of_another_quantity_is_refused(key: str, said: str) -> None:
     with pytest.raises(TribodynError, match=said):
         press().output("off", "slider", along=[1, 0, 0], **{key: "1 deg"}).case()

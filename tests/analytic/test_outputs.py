@@ -219,10 +219,7 @@ def test_an_instant_that_no_joint_has_is_refused(at: dict[str, object], said: st
         ({"body": "slider", "quantity": "angle"}, "needs its axis"),
         ({"body": "slider", "quantity": "distance"}, "second point"),
         ({"body": "slider", "along": [0, 0, 0]}, "along"),
-        (
-            {"body": "rod", "quantity": "angle", "along": [0, 0, 1], "point": "1, 0, 0 mm"},
-            "needs no point",
-        ),
+        ({"body": "rod", "quantity": "angle", "along": [0, 0, 1], "point": "1, 0, 0 mm"}, "needs no point"),
     ],
 )
 def test_a_misdescribed_output_is_refused(keys: dict[str, object], said: str) -> None:

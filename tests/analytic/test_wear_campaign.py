@@ -13,12 +13,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise
 from tribodyn.simulation import simulate, wear
 
-COARSE = {
-    "solver.grid.theta": 48,
-    "solver.grid.z": 10,
-    "run.output_interval": "20 ms",
-    "run.impact_rows": 50,
-}
+COARSE = {"solver.grid.theta": 48, "solver.grid.z": 10, "run.output_interval": "20 ms", "run.impact_rows": 50}
 FAST_WEAR = {"wear.specific_wear_rate": "1.1e-12 m^2/N", "wear.cycles": 400, "wear.jump_limit": 0.5}
 
 

@@ -199,8 +199,7 @@ class TestFuzz:
 
     def test_set_on_the_command_line(self, count):
         options = st.one_of(
-            st.builds(lambda path, value: f"{path}={value}", paths, scalars),
-            st.text(max_size=60),
+            st.builds(lambda path, value: f"{path}={value}", paths, scalars), st.text(max_size=60)
         )
 
         @tried(count, st.sampled_from(sorted(built_in())), st.lists(options, min_size=1, max_size=4))

@@ -50,10 +50,7 @@ def allowed(held: Held) -> float:
 
 @pytest.mark.parametrize(
     "seeds",
-    [
-        pytest.param(range(0, MANY, 15), id="few"),
-        pytest.param(range(MANY), id="all", marks=pytest.mark.long),
-    ],
+    [pytest.param(range(0, MANY, 15), id="few"), pytest.param(range(MANY), id="all", marks=pytest.mark.long)],
 )
 def test_springs_hold_freedoms_where_the_potential_energy_is_least(seeds: range) -> None:
     found, open_somewhere = {}, []

@@ -64,10 +64,7 @@ def missed(seed: int) -> float:
 
 @pytest.mark.parametrize(
     "seeds",
-    [
-        pytest.param(range(0, MANY, 20), id="few"),
-        pytest.param(range(MANY), id="all", marks=pytest.mark.long),
-    ],
+    [pytest.param(range(0, MANY, 20), id="few"), pytest.param(range(MANY), id="all", marks=pytest.mark.long)],
 )
 def test_hysteresis_of_the_torque_is_that_of_virtual_work_at_any_speed(seeds: range) -> None:
     found = {seed: missed(seed) for seed in seeds}

@@ -84,15 +84,7 @@ def global_error(name, k, n_steps):
     return error
 
 
-STEPS = {
-    1: (320, 640),
-    2: (160, 320),
-    3: (113, 160),
-    4: (160, 226),
-    5: (113, 160),
-    6: (57, 80),
-    7: (57, 80),
-}
+STEPS = {1: (320, 640), 2: (160, 320), 3: (113, 160), 4: (160, 226), 5: (113, 160), 6: (57, 80), 7: (57, 80)}
 """Short enough for the leading term, long enough to stay clear of what Newton's iteration leaves."""
 
 

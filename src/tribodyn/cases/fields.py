@@ -97,14 +97,7 @@ def vector(
     """
     held = None if default is None else _numbers(default, unit)
     return _field(
-        held,
-        description,
-        source,
-        kind="vector",
-        required=required,
-        unit=unit,
-        example=example,
-        length=3,
+        held, description, source, kind="vector", required=required, unit=unit, example=example, length=3
     )
 
 

@@ -162,12 +162,7 @@ class _ContactOfAnyLaw(Group):
         family="tribodyn.contact:DAMPING_FACTORS",
     )
     restitution: float | None = number(
-        None,
-        "restitution meant; rsdc has its own without it",
-        "paper, Eq. 9",
-        gt=0,
-        le=1,
-        example="0.7",
+        None, "restitution meant; rsdc has its own without it", "paper, Eq. 9", gt=0, le=1, example="0.7"
     )
     loss_coefficient: float | None = quantity(
         None,

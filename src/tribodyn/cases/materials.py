@@ -172,9 +172,7 @@ def _library() -> dict[str, Material]:
     sources = tables.pop("sources")
     return {
         name: Material(
-            name,
-            table.pop("title"),
-            {key: _read(key, inside, sources) for key, inside in table.items()},
+            name, table.pop("title"), {key: _read(key, inside, sources) for key, inside in table.items()}
         )
         for name, table in tables.items()
     }

@@ -103,10 +103,7 @@ class _TableRows(NamedGroup):
         None, "which of its columns, by name; the second without it", "", example="force"
     )
     interpolation: Literal["cubic", "linear", "smooth"] | None = choice(
-        None,
-        "between the rows of a table, or near those of a noisy one; cubic without",
-        "",
-        example="linear",
+        None, "between the rows of a table, or near those of a noisy one; cubic without", "", example="linear"
     )
 
     if TYPE_CHECKING:  # What the groups of quantities declare.

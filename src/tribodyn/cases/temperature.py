@@ -309,12 +309,7 @@ class ChangingTemperature(Temperature):
         return replace(whole, coefficients=whole.coefficients - [[0.0], [0.0], [0.0], [whole.at_start]])
 
     def check(
-        self,
-        cold: Cylinder,
-        surfaces: Surfaces,
-        liner: LinerKeys,
-        duration: float,
-        names: Names = Names(),
+        self, cold: Cylinder, surfaces: Surfaces, liner: LinerKeys, duration: float, names: Names = Names()
     ) -> None:
         """Refuse temperatures that leave no clearance in a run of ``duration`` [s]."""
         opening = self.opening(cold, surfaces, liner, names)

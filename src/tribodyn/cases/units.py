@@ -73,13 +73,7 @@ RZ_OVER_RA: Final = 5.6
 _ROUND: Final = 3
 """Characters that a number may gain in another unit; with more it is not a round number there."""
 _GAUSSIAN: Final = math.sqrt(math.pi / 2.0)
-AMPLITUDES: Final = {
-    "Rq": 1.0,
-    "Sq": 1.0,
-    "Ra": _GAUSSIAN,
-    "Sa": _GAUSSIAN,
-    "Rz": _GAUSSIAN / RZ_OVER_RA,
-}
+AMPLITUDES: Final = {"Rq": 1.0, "Sq": 1.0, "Ra": _GAUSSIAN, "Sa": _GAUSSIAN, "Rz": _GAUSSIAN / RZ_OVER_RA}
 """Root mean square roughness over other measures of height, for Gaussian heights: σ = √(π/2) Ra."""
 
 

@@ -104,12 +104,7 @@ def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:
 
 
 def _lines(
-    value: Any,
-    key: Key,
-    expression: Any,
-    own: Collection[str],
-    origins: Mapping[str, str],
-    comments: bool,
+    value: Any, key: Key, expression: Any, own: Collection[str], origins: Mapping[str, str], comments: bool
 ) -> Iterator[str]:
     if value is not None and expression is not None and (written := _as_toml(expression)) != key.write(value):
         key = replace(key, description=f"{key.write(value)}; {key.description}")

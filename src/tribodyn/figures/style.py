@@ -134,12 +134,7 @@ def note(axes: Axes, text: str) -> None:
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", size=TEXT, color=GREY)
 
 
-def lines(
-    axes: Axes,
-    x: FloatArray,
-    curves: Curves,
-    width: float = 1.3,
-) -> None:
+def lines(axes: Axes, x: FloatArray, curves: Curves, width: float = 1.3) -> None:
     """Draw curves over ``x``; say so when there is nothing to draw."""
     for values, label, colour, dash in curves:
         # A run of one sample draws no line: mark it.

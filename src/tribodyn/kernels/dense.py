@@ -158,13 +158,7 @@ def _reflect(normals: FloatMatrix, columns: FloatMatrix, across: FloatArray) -> 
 
 
 @entry
-def _reduce(
-    a: FloatMatrix,
-    order: IntArray,
-    least: float,
-    normals: FloatMatrix,
-    across: FloatArray,
-) -> int:
+def _reduce(a: FloatMatrix, order: IntArray, least: float, normals: FloatMatrix, across: FloatArray) -> int:
     """Make a triangle of the first columns in place; return their rank."""
     for k in range(normals.shape[0]):
         best, largest = k, -1.0

@@ -87,10 +87,7 @@ else:
 class MechanismWear(Wear):
     """Wear of the joints with clearance."""
 
-    LIMIT_OF: ClassVar[Mapping[str, str]] = {
-        **Wear.LIMIT_OF,
-        **ERROR_LIMIT_OF,
-    }
+    LIMIT_OF: ClassVar[Mapping[str, str]] = {**Wear.LIMIT_OF, **ERROR_LIMIT_OF}
 
 
 class MechanismCase(_WithElements):

@@ -29,11 +29,7 @@ from tribodyn.mechanism.assembly.passage import drive_through
 from tribodyn.mechanism.assembly.positions import DrivePath
 from tribodyn.mechanism.assembly.start import initial_state
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.mechanism_variables import (
-    AXES,
-    ENTRIES,
-    Observed,
-)
+from tribodyn.mechanism.mechanism_variables import AXES, ENTRIES, Observed
 from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects

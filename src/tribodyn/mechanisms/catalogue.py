@@ -26,10 +26,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 
-FOLDERS: Final = {
-    "mechanism": "tribodyn.mechanism",
-    "journal": "tribodyn.presets.journal",
-}
+FOLDERS: Final = {"mechanism": "tribodyn.mechanism", "journal": "tribodyn.presets.journal"}
 """Packages whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases."""
 _GROUP: Final = "tribodyn.mechanisms"
 

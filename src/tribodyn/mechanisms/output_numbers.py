@@ -135,10 +135,7 @@ BY_OUTPUT: Final[dict[str, ByPart]] = {
     f"error_{measure}_{spelled}": partial(_made, measure, unit)
     for unit, (spelled, _, _) in ERROR_UNITS.items()
     for measure in READINGS
-} | {
-    "error_of_limit_percent": _of_limit,
-    "error_life_cycles": _life,
-}
+} | {"error_of_limit_percent": _of_limit, "error_life_cycles": _life}
 """Key results of each output, by what stands before its name."""
 
 

@@ -49,10 +49,7 @@ TOO_CLOSE: Final = (
 
 
 def beyond_law(
-    h_first: float,
-    t_end: float,
-    surfaces: str,
-    cause: str = f"the load or the impact {TOO_CLOSE}",
+    h_first: float, t_end: float, surfaces: str, cause: str = f"the load or the impact {TOO_CLOSE}"
 ) -> str:
     """Return why a run stopped at ``t_end`` [s] that left the range of its contact law.
 

@@ -279,9 +279,7 @@ def page(template: str = "page.html", *, payload: Mapping[str, Any] | None, **co
         lstrip_blocks=True,
     )
     return environment.get_template(template).render(
-        inside=assets.inside(bool(payload)),
-        payload=inside_page(payload) if payload else "",
-        **content,
+        inside=assets.inside(bool(payload)), payload=inside_page(payload) if payload else "", **content
     )
 
 

@@ -63,10 +63,7 @@ def prepare_directory(directory: str | Path) -> Path:
 
 
 def write_run(
-    dataset: xr.Dataset,
-    directory: str | Path,
-    summary: Summary,
-    stale: Iterable[Path] = (),
+    dataset: xr.Dataset, directory: str | Path, summary: Summary, stale: Iterable[Path] = ()
 ) -> list[Path]:
     """Write a run; summary and case of an earlier one never remain with its result.
 

@@ -102,7 +102,7 @@ CAMPAIGN: Final[dict[str, Variable]] = {
 """Numbers of every wear campaign at its stops; a mechanism adds its own of each cycle."""
 
 STAGES: Final[dict[str, Variable]] = {
-    "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z")),
+    "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z"))
 }
 """Worn profiles that are kept of a campaign."""
 

@@ -84,11 +84,7 @@ class OutputShares:
 
 
 def contributions(
-    case: Case | str | Path,
-    *,
-    directory: str | Path,
-    workers: int | None = None,
-    watcher: Watcher = _SILENT,
+    case: Case | str | Path, *, directory: str | Path, workers: int | None = None, watcher: Watcher = _SILENT
 ) -> tuple[OutputShares, ...]:
     """Return the parts of the error of each output of a case by its joints.
 

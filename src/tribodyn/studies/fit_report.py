@@ -126,10 +126,7 @@ def fitted_case(calibration: Calibration, keys: Sequence[FittedKey]) -> str:
 
 
 def page(
-    calibration: Calibration,
-    found: LeastSquares,
-    keys: Sequence[FittedKey],
-    words: Sequence[str],
+    calibration: Calibration, found: LeastSquares, keys: Sequence[FittedKey], words: Sequence[str]
 ) -> str:
     """Return the page of a fit."""
     lines = [
@@ -155,10 +152,7 @@ def page(
 
 
 def as_json(
-    calibration: Calibration,
-    found: LeastSquares,
-    keys: Sequence[FittedKey],
-    words: Sequence[str],
+    calibration: Calibration, found: LeastSquares, keys: Sequence[FittedKey], words: Sequence[str]
 ) -> dict[str, Any]:
     """Return the fit as JSON values, SI units."""
     deviations = np.sqrt(np.diag(found.covariance()))

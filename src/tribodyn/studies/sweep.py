@@ -226,11 +226,7 @@ def _kept(plan: SweepPlan, archive: Archive | None, means: Means) -> dict[str, S
 
 
 def _compute(
-    plan: SweepPlan,
-    archive: Archive | None,
-    means: Means,
-    summaries: dict[str, Summary],
-    watcher: Watcher,
+    plan: SweepPlan, archive: Archive | None, means: Means, summaries: dict[str, Summary], watcher: Watcher
 ) -> None:
     """Compute the missing points, keep each when it arrives, and add their summaries."""
     # By name: samples may coincide.

@@ -47,11 +47,7 @@ def failed(reason: str, *, final: bool) -> PointOutcome:
 
 
 def compute(
-    toml: str,
-    made_by: str,
-    keep_result: bool,
-    staging: str = "",
-    stop: Callable[[], bool] | None = None,
+    toml: str, made_by: str, keep_result: bool, staging: str = "", stop: Callable[[], bool] | None = None
 ) -> PointOutcome:
     """Simulate one case.
 

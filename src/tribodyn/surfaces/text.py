@@ -138,8 +138,7 @@ def _length(text: str, length: Length, key: str) -> float:
         return length(text.strip())
     except ValueError as error:
         raise InputError(
-            f'{as_given(text.strip())}: {error}; allowed: a length with its unit, such as "0.5 um"',
-            key=key,
+            f'{as_given(text.strip())}: {error}; allowed: a length with its unit, such as "0.5 um"', key=key
         ) from None
 
 

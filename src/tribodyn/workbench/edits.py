@@ -15,11 +15,7 @@ from tribodyn.workbench.controls import FILE
 from tribodyn.workbench.messages import Edit, Values
 from tribodyn.workbench.variant import NO_FILES, Origin
 
-_NAMED: Final = {
-    "between": "bodies",
-    "body": "bodies",
-    "joint": "joints",
-}
+_NAMED: Final = {"between": "bodies", "body": "bodies", "joint": "joints"}
 """Keys that name a part, with the table of that part."""
 
 

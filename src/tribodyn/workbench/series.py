@@ -215,12 +215,7 @@ def slope_of(state: ServerState, origin: Origin, asked: Slope) -> SeriesPlan:
 
     def say(points: Sequence[Point], finished: bool) -> dict[str, Any]:
         about = {"number": asked.number, "key": asked.key, "done": len(points), "of": len(variants)}
-        return {
-            "type": "slope",
-            **about,
-            "finished": finished,
-            "results": slopes(points) if finished else {},
-        }
+        return {"type": "slope", **about, "finished": finished, "results": slopes(points) if finished else {}}
 
     return SeriesPlan(asked.number, variants, along.key, say)
 

@@ -191,14 +191,7 @@ class ServerState:
         for listener in self.listeners:
             listener(self.status)
 
-    def order(
-        self,
-        variant: Variant,
-        seconds: float,
-        on_event: OnEvent,
-        *,
-        background: bool = False,
-    ) -> Job:
+    def order(self, variant: Variant, seconds: float, on_event: OnEvent, *, background: bool = False) -> Job:
         """Return the job that makes the frame of a case."""
         order = {"work": "picture", "case": variant.toml, "header": variant.header}
         return Job(order, seconds, background, on_event)
@@ -221,11 +214,7 @@ class ServerState:
 
     @property
     def _limits(self) -> dict[str, int]:
-        return {
-            "pins": self.rules.pins,
-            "messages_per_second": self.rules.messages,
-            "message_bytes": LARGEST,
-        }
+        return {"pins": self.rules.pins, "messages_per_second": self.rules.messages, "message_bytes": LARGEST}
 
 
 def refusal(number: int, error: Exception) -> dict[str, Any]:

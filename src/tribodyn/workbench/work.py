@@ -132,11 +132,7 @@ def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     return dataset
 
 
-WORK: Final = {
-    "picture": picture,
-    "result.nc": result,
-    "report.html": report,
-}
+WORK: Final = {"picture": picture, "result.nc": result, "report.html": report}
 """All kinds of work, by name."""
 
 

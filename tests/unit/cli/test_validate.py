@@ -130,10 +130,7 @@ def test_a_curve_is_judged_by_the_root_mean_square_of_its_difference(tmp_path, c
 
 @pytest.mark.parametrize(
     ("line", "message"),
-    [
-        ("e_x,gone.csv,1,5 %,,,\n", "gone.csv"),
-        ("e_z,run.csv,1,5 %,,,\n", "run.csv has no such column"),
-    ],
+    [("e_x,gone.csv,1,5 %,,,\n", "gone.csv"), ("e_z,run.csv,1,5 %,,,\n", "run.csv has no such column")],
 )
 @pytest.mark.usefixtures("curve")
 def test_curves_that_are_not_there_are_refused(line, message, tmp_path, capsys):

@@ -99,8 +99,7 @@ def test_depth_is_given_in_a_readable_unit(depth, unit):
 def test_centres_of_a_tilted_trunnion():
     # The axis at height z lies at (e_x - z tan phi_y, e_y - z tan phi_x).
     result = build(
-        coordinates={"time": [0.0]},
-        columns={"e_x": [1e-6], "e_y": [2e-6], "phi_x": [1e-3], "phi_y": [-5e-4]},
+        coordinates={"time": [0.0]}, columns={"e_x": [1e-6], "e_y": [2e-6], "phi_x": [1e-3], "phi_y": [-5e-4]}
     )
     x, y = centre(result, 10e-3)
     assert (x[0], y[0]) == (pytest.approx(1.0 + 5.0, rel=1e-5), pytest.approx(2.0 - 10.0, rel=1e-5))

@@ -34,11 +34,7 @@ def looks(monkeypatch: pytest.MonkeyPatch, marks: list[tuple[float, int]]) -> No
 
 @pytest.mark.parametrize(
     "marks",
-    [
-        [(0.3, 5000), (0.3 + 1e-12, 60_000)],
-        [(1e-13, 50_000)],
-        [(0.5, 100_000), (0.5, 200_000)],
-    ],
+    [[(0.3, 5000), (0.3 + 1e-12, 60_000)], [(1e-13, 50_000)], [(0.5, 100_000), (0.5, 200_000)]],
     ids=["collapsed", "from the start", "no step at all"],
 )
 def test_a_run_that_is_stuck_ends_within_two_looks(

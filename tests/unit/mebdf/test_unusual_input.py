@@ -61,11 +61,7 @@ def chain(t, y):
     [
         (chain, {}, [0.0, 2.0]),
         (lambda t, y: [-y[0], y[0] - y[1]], {"mass": [1.0, 0.0]}, [np.exp(-10.0)] * 2),
-        (
-            lambda t, y, slope: [slope[0] + y[0], y[0] - y[1]],
-            {"slope": [-1.0, 0.0]},
-            [np.exp(-10.0)] * 2,
-        ),
+        (lambda t, y, slope: [slope[0] + y[0], y[0] - y[1]], {"slope": [-1.0, 0.0]}, [np.exp(-10.0)] * 2),
     ],
 )
 def test_a_component_whose_error_does_not_matter(fun, options, end):

@@ -330,11 +330,7 @@ class Run:
 
 
 def run(
-    model: Model,
-    times: ArrayLike,
-    rtol: float,
-    solver: str = "mebdf",
-    state: FloatArray | None = None,
+    model: Model, times: ArrayLike, rtol: float, solver: str = "mebdf", state: FloatArray | None = None
 ) -> Run:
     """Run a mechanism from 0 to the last of some times and return what was observed at them.
 

@@ -298,7 +298,7 @@ _OF_ANGLE = ('input = { type = "revolute"', 'input = { type = "prismatic"', "joi
 WRONG: dict[str, list[tuple[str, str, str, str]]] = {
     "distance": _POINTS,
     "nonlinear_spring": [
-        ('between = ["arm", "ground"]', 'between = ["arm", "arm"]', "between", "twice the same body"),
+        ('between = ["arm", "ground"]', 'between = ["arm", "arm"]', "between", "twice the same body")
     ],
     "torsion_spring": [_OF_ANGLE],
     "stop": [

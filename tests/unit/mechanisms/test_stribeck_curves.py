@@ -35,8 +35,7 @@ def test_a_joint_of_a_mechanism_has_that_of_the_journal_it_is() -> None:
 
 
 @pytest.mark.parametrize(
-    ("case", "words"),
-    [("journal-oil", "friction"), ("journal-dry", "oil"), ("vsv", "oil")],
+    ("case", "words"), [("journal-oil", "friction"), ("journal-dry", "oil"), ("vsv", "oil")]
 )
 def test_what_has_no_such_curve_is_refused(case: str, words: str) -> None:
     with pytest.raises(InputError, match=words):

@@ -134,24 +134,13 @@ PROFILE = [f"{i},{(i * i) % 7}" for i in range(6)]
     [
         ("Position [mm],Height [um]\n" + "\n".join(PROFILE), None),
         ("Weg (mm);Höhe (µm)\n" + "\n".join(row.replace(",", ",0;") + ",0" for row in PROFILE), None),
-        (
-            "# run 7\nMeasured, twice\nx [mm]\tz [um]\n" + "\n".join(PROFILE).replace(",", "\t"),
-            None,
-        ),
+        ("# run 7\nMeasured, twice\nx [mm]\tz [um]\n" + "\n".join(PROFILE).replace(",", "\t"), None),
         ("% no names\n" + "\n".join(PROFILE), "mm, um"),
         ("// no names\n" + "\n".join(PROFILE).replace(",", ";"), "mm,um"),
         ("distance,profile\n" + "\n".join(PROFILE), "mm, um"),
         ("h [um],x [mm]\n" + "\n".join(",".join(reversed(row.split(","))) for row in PROFILE), None),
     ],
-    ids=[
-        "other-name",
-        "decimal-commas",
-        "preamble",
-        "no-header",
-        "semicolon",
-        "no-units",
-        "swapped",
-    ],
+    ids=["other-name", "decimal-commas", "preamble", "no-header", "semicolon", "no-units", "swapped"],
 )
 def test_profiles_as_instruments_write_them(text: str, unit: str | None, tmp_path: Path) -> None:
     scan = read(tmp_path, text + "\n", Scale(unit))

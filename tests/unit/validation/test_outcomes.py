@@ -92,10 +92,7 @@ def test_a_null_model_stands_beside_every_number(name: str) -> None:
     assert all(row.null is not None for row in _judged(name).outcome.comparisons)
 
 
-@pytest.mark.parametrize(
-    ("name", "rows"),
-    [("journal_stribeck", 3), ("servo_gear_friction", 1)],
-)
+@pytest.mark.parametrize(("name", "rows"), [("journal_stribeck", 3), ("servo_gear_friction", 1)])
 def test_what_was_chosen_with_the_values_known_is_reported_only(name: str, rows: int) -> None:
     judged = _judged(name)
     reported = [row for row in judged.outcome.comparisons if row.not_judged]

@@ -197,9 +197,7 @@ class Host:
 
 @asynccontextmanager
 async def hosting(
-    pool: WorkerPool | None = None,
-    case: str = "vsv",
-    rules: Rules | None = None,
+    pool: WorkerPool | None = None, case: str = "vsv", rules: Rules | None = None
 ) -> AsyncIterator[Host]:
     """Serve while the block runs; no error of our own may be told of."""
     chosen = rules or Rules()
@@ -211,13 +209,7 @@ async def hosting(
     origin = Origin(load_case(case), case)
     state = ServerState(origin, pool or Pretending(), chosen)
     complaints: list[str] = []
-    context = ServerContext(
-        state,
-        endpoint,
-        session,
-        {PAGE: THE_PAGE, "a.js": b"1"},
-        complaints.append,
-    )
+    context = ServerContext(state, endpoint, session, {PAGE: THE_PAGE, "a.js": b"1"}, complaints.append)
     server = HTTPServer(AccessControl(endpoint, session, application(context)), max_body_size=0)
     server.add_sockets(listeners)
     warm = asyncio.create_task(state.warm())

@@ -229,12 +229,7 @@ class GroupedDifferences:
             self._share[none] *= STRIDE
 
     def _changes(
-        self,
-        rates: Rates,
-        y: FloatArray,
-        f: FloatArray,
-        moves: FloatArray,
-        which: NDArray[np.int64],
+        self, rates: Rates, y: FloatArray, f: FloatArray, moves: FloatArray, which: NDArray[np.int64]
     ) -> _Changes:
         """Return the changes of the entries ``which`` by moves, in order: all those of their columns."""
         row, column = self._row[which], self._column[which]

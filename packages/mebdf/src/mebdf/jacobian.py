@@ -203,11 +203,7 @@ def _matrices(mass: MassMatrix | None, n: int, typical: FloatArray) -> Matrices:
 
 
 def _by_differences(
-    solver: OdeSolver,
-    pattern: Any,
-    threshold: FloatArray,
-    mass: MassMatrix | None,
-    matrices: Matrices | None,
+    solver: OdeSolver, pattern: Any, threshold: FloatArray, mass: MassMatrix | None, matrices: Matrices | None
 ) -> Linear:
     """Return a Jacobian by differences; ``threshold`` are values below which these no longer shrink."""
     n = solver.n

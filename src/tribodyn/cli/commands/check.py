@@ -21,9 +21,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``check``."""
     add_case_arguments(parser)
     parser.add_argument(
-        "--deep",
-        action="store_true",
-        help="also find the start of the run and take its first step",
+        "--deep", action="store_true", help="also find the start of the run and take its first step"
     )
 
 

@@ -22,9 +22,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "variables of the result, with or without labels, as reaction_force.wrist.x",
     )
     parser.add_argument(
-        "--over",
-        metavar="JOINT",
-        help="begin with the angle of this joint, or with a variable",
+        "--over", metavar="JOINT", help="begin with the angle of this joint, or with a variable"
     )
     parser.add_argument(
         "--decimal", choices=("point", "comma"), default="point", help="comma: fields end with semicolons"

@@ -88,9 +88,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
     again.add_argument("--fresh", action="store_true", help="compute all points again")
     parser.add_argument(
-        "--summary-only",
-        action="store_true",
-        help="keep key results of each point, not its whole result",
+        "--summary-only", action="store_true", help="keep key results of each point, not its whole result"
     )
 
 
@@ -195,8 +193,7 @@ def _variations(texts: list[str]) -> dict[str, str]:
         path, equals, values = (without_quotes(part) for part in typed(text).partition("="))
         if not (equals and path and values):
             raise InputError(
-                f'{as_given(text)}; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"',
-                key="--vary",
+                f'{as_given(text)}; allowed: PATH=VALUES, such as joint.clearance="20 um,30 um"', key="--vary"
             )
         if path in variations:
             raise InputError("this parameter is varied twice", key=path, source="--vary")

@@ -38,8 +38,7 @@ class Annulus:
         check_positive("annulus", outer=self.outer)
         if not 0.0 <= self.inner < self.outer:
             raise InputError(
-                f"must be larger than the inner radius {self.inner:g} m, not {self.outer:g} m",
-                key="outer",
+                f"must be larger than the inner radius {self.inner:g} m, not {self.outer:g} m", key="outer"
             )
         if not self.clearance >= 0.0:
             raise InputError(f"must not be negative, as {self.clearance:g}", key="axial")

@@ -88,11 +88,7 @@ class Ball:
         z, weight = across(-edge, edge, n_z)
         ones, latitude = np.ones(z.size), portable.asin(z / self.radius)
         rings = Rings(
-            self.radius * portable.cos(latitude),
-            z,
-            ones,
-            0.0 * ones,
-            (self.radius + self.clearance) * weight,
+            self.radius * portable.cos(latitude), z, ones, 0.0 * ones, (self.radius + self.clearance) * weight
         )
         gap = self.clearance + self.radius * (1.0 - portable.cos(latitude))
         return (rings.surface("ball", ("latitude", latitude), gap, n_theta, NO_TILT),)

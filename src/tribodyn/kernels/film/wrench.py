@@ -33,12 +33,7 @@ def film_wrench(film: FilmData, memory: FilmMemory, y: FloatArray, omega: float,
 
 @entry
 def film_wrench_and_jacobian(
-    film: FilmData,
-    memory: FilmMemory,
-    y: FloatArray,
-    omega: float,
-    out: FloatArray,
-    jacobian: FloatMatrix,
+    film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray, jacobian: FloatMatrix
 ) -> int:
     """Fill ``out`` as :func:`film_wrench` and ``jacobian`` (5, 9) with its derivatives; return a status."""
     u = memory.work.state

@@ -25,11 +25,7 @@ from tribodyn.kernels.film.wrench import derivatives_in_chart, wrench_in_chart
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.pose import W
 from tribodyn.kernels.joints.surface.joint import add_derivatives
-from tribodyn.kernels.joints.surface.station import (
-    derivatives_at_origin,
-    fill_station,
-    pressure_at_origin,
-)
+from tribodyn.kernels.joints.surface.station import derivatives_at_origin, fill_station, pressure_at_origin
 from tribodyn.kernels.joints.surface.tilt import AXIS, fill_tilt, moment_of
 
 SLIDES: Final = 1.0

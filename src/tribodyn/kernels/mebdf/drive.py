@@ -21,14 +21,7 @@ from mebdf.kernels import state as at
 from mebdf.kernels.arrays import copy
 from mebdf.kernels.core import resume
 from mebdf.kernels.history import state_at
-from mebdf.kernels.phases import (
-    FAILED,
-    NEED_F,
-    NEED_FACTORS,
-    NEED_JACOBIAN,
-    NEED_MAGNITUDE,
-    NEED_SOLUTION,
-)
+from mebdf.kernels.phases import FAILED, NEED_F, NEED_FACTORS, NEED_JACOBIAN, NEED_MAGNITUDE, NEED_SOLUTION
 from mebdf.kernels.state import MebdfState
 from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray
 from tribodyn.kernels.jit import SOURCES, entry

@@ -119,11 +119,7 @@ def _divide(blocks: FloatArray, target: int, inverse: int, columns: int) -> None
     """Multiply a block that is zero beyond so many columns by an inverse from the right."""
     at = BLOCK * target
     a, b, c = load(blocks, at), load(blocks, at + COLUMN), load(blocks, at + 2 * COLUMN)
-    d, e, f = (
-        load(blocks, at + 3 * COLUMN),
-        load(blocks, at + 4 * COLUMN),
-        load(blocks, at + 5 * COLUMN),
-    )
+    d, e, f = (load(blocks, at + 3 * COLUMN), load(blocks, at + 4 * COLUMN), load(blocks, at + 5 * COLUMN))
     second = at + WIDTH
     p, q, r = load(blocks, second), load(blocks, second + COLUMN), load(blocks, second + 2 * COLUMN)
     s, t, u = (

@@ -33,15 +33,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.angle import angle_gradient, angle_hessian, angle_rate, whole_angle
-from tribodyn.kernels.mechanism.data import (
-    ANGLE,
-    COORDINATE,
-    DISTANCE,
-    NONE,
-    PATH,
-    POINT,
-    POSITION,
-)
+from tribodyn.kernels.mechanism.data import ANGLE, COORDINATE, DISTANCE, NONE, PATH, POINT, POSITION
 from tribodyn.kernels.mechanism.vectors import cross, multiply
 from tribodyn.kernels.signals import Signals, evaluate
 

@@ -14,13 +14,7 @@ from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.mechanism.constraints import row_gradient
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.relative import rate_gradient, twist_gradient
-from tribodyn.kernels.mechanism.vectors import (
-    cross_put,
-    cross_rows,
-    multiply_transposed,
-    put,
-    turn_back,
-)
+from tribodyn.kernels.mechanism.vectors import cross_put, cross_rows, multiply_transposed, put, turn_back
 
 
 @kernel

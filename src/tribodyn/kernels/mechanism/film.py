@@ -14,13 +14,7 @@ from tribodyn.kernels.mechanism.data import FILM, REPORTS, SLOPES
 
 @kernel
 def film_force(
-    mode: float,
-    films: FilmData,
-    memory: FilmMemory,
-    k: int,
-    now: Record,
-    scratch: Record,
-    oil: Any,
+    mode: float, films: FilmData, memory: FilmMemory, k: int, now: Record, scratch: Record, oil: Any
 ) -> None:
     """Add the wrench of film ``k`` to that of its coupling, ``now``, and what else ``mode`` asks for.
 

@@ -7,13 +7,7 @@ from typing import Any
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.bodies import collect
-from tribodyn.kernels.mechanism.data import (
-    N_STATES,
-    TURNING,
-    Now,
-    Parts,
-    Pattern,
-)
+from tribodyn.kernels.mechanism.data import N_STATES, TURNING, Now, Parts, Pattern
 from tribodyn.kernels.mechanism.redundancy import choose_rows
 from tribodyn.kernels.mechanism.solution import (
     close,

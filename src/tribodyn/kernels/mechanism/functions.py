@@ -79,12 +79,7 @@ def jac(
 
 @entry
 def jac_entries(
-    t: float,
-    y: FloatArray,
-    data: MechanismData,
-    memory: MechanismMemory,
-    f: FloatArray,
-    entries: FloatArray,
+    t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, f: FloatArray, entries: FloatArray
 ) -> None:
     """Fill ``f`` (n,) and the entries (n_entries,) that ``kernels/mechanism/newton.py`` names."""
     _differentiate(t, y, data, memory, f)

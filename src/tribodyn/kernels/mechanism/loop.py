@@ -5,15 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from tribodyn.kernels.mebdf.drive import loop
-from tribodyn.kernels.mechanism.functions import (
-    accept,
-    advance,
-    enter,
-    jac_entries,
-    observe,
-    picture,
-    rhs,
-)
+from tribodyn.kernels.mechanism.functions import accept, advance, enter, jac_entries, observe, picture, rhs
 from tribodyn.kernels.mechanism.newton import factorise, solve
 
 LOOP: Final = loop(rhs, jac_entries, advance, accept, observe, picture, factorise, solve)

@@ -216,12 +216,7 @@ def _add(
 
 @kernel
 def _coupling_blocks(
-    coupling: Record,
-    n_bodies: int,
-    entries: FloatArray,
-    gamma: float,
-    turns: FloatArray,
-    blocks: FloatArray,
+    coupling: Record, n_bodies: int, entries: FloatArray, gamma: float, turns: FloatArray, blocks: FloatArray
 ) -> None:
     """Add the entries of a coupling to the blocks; ``entries`` begin with its own."""
     sides, n = _n_sides(coupling, n_bodies), coupling.n_terms

@@ -36,12 +36,7 @@ def rhs(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray
 
 @entry
 def jac(
-    t: float,
-    y: FloatArray,
-    data: VsvData,
-    memory: VsvMemory,
-    f: FloatArray,
-    jacobian: FloatMatrix,
+    t: float, y: FloatArray, data: VsvData, memory: VsvMemory, f: FloatArray, jacobian: FloatMatrix
 ) -> None:
     """Fill ``f`` (8,) and its derivative ``jacobian`` (8, 8)."""
     accelerations_and_gradient(data, t, y, memory)
@@ -89,12 +84,7 @@ def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: F
 
 @entry
 def kinetostatic_residual(
-    t: float,
-    y: FloatArray,
-    data: VsvData,
-    memory: VsvMemory,
-    residual: FloatArray,
-    jacobian: FloatMatrix,
+    t: float, y: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatMatrix
 ) -> None:
     """Fill the generalised load that remains with q̇ = q̈ = 0, and its derivative.
 

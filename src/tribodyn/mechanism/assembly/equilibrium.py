@@ -20,15 +20,7 @@ from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.stopping import ask
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, move, place
-from tribodyn.kernels.mechanism.data import (
-    CONTACT,
-    LOAD_LINE,
-    LOAD_MOTION,
-    N_STATES,
-    NONE,
-    NOTHING,
-    VELOCITY,
-)
+from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NONE, NOTHING, VELOCITY
 from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.closing import System

@@ -13,11 +13,7 @@ from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, LoadKeys
 from tribodyn.mechanisms.action_intervals import Term
 from tribodyn.mechanisms.shaft_loads import parts_of, term
 
-_KINDS: Final = {
-    "ground": kinds.LOAD_GROUND,
-    "body": kinds.LOAD_BODY,
-    "motion": kinds.LOAD_MOTION,
-}
+_KINDS: Final = {"ground": kinds.LOAD_GROUND, "body": kinds.LOAD_BODY, "motion": kinds.LOAD_MOTION}
 _FOLLOWED: Final = {
     "times": kinds.TIME,
     "angles": kinds.FOLLOWED,

@@ -204,11 +204,7 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
 
 
 def _place(
-    record: Any,
-    model: Model,
-    bodies: Sequence[str],
-    points: ArrayLike,
-    axes: tuple[FloatArray, FloatArray],
+    record: Any, model: Model, bodies: Sequence[str], points: ArrayLike, axes: tuple[FloatArray, FloatArray]
 ) -> None:
     """Fill bodies, origins and axes of socket and shaft; ``points`` and ``axes`` as drawn."""
     n, keys = len(model.bodies), model.case.bodies

@@ -129,10 +129,7 @@ class Skeleton:
 
 
 def outline_at(
-    drawn: Skeleton,
-    outline: Outline,
-    position: FloatArray,
-    orientation: FloatArray,
+    drawn: Skeleton, outline: Outline, position: FloatArray, orientation: FloatArray
 ) -> FloatArray:
     """Return a line [mm], shape (..., n, 3), from the motion of all bodies, (..., n_bodies, 3 or 4)."""
     parts = [

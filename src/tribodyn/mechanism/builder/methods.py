@@ -30,10 +30,7 @@ Example = Mapping[str, Any]
 OF_JOINT: Final = ("clearance", "film")
 """Tables of a joint that have methods of their own."""
 _NAME: Final = ("name", "", "its name, which the case does not have yet")
-_ENDS: Final = (
-    ("first", "between", "a body, or ground"),
-    ("second", "between", "another body, or ground"),
-)
+_ENDS: Final = (("first", "between", "a body, or ground"), ("second", "between", "another body, or ground"))
 _THAT_JOINT: Final = (("joint", "", "a joint that the mechanism has"),)
 
 

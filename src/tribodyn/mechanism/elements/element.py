@@ -246,11 +246,7 @@ class PointsKeys(ElementKeys):
         None, "position of its end on the second body", "", unit="mm", example=POINT, required=True
     )
     length: float | None = quantity(
-        None,
-        "its length without force; by default the distance of its ends",
-        "",
-        ge=0,
-        example="80 mm",
+        None, "its length without force; by default the distance of its ends", "", ge=0, example="80 mm"
     )
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:

@@ -100,10 +100,7 @@ torque = "0.2 N m"
         )
         law = friction_law(self.friction_coefficient / cosine, self.slip_velocity, load_leg=1)
         turning, lifting = replace(thread, along=np.zeros(3)), _crosswise(thread)
-        return (
-            base.Equation((turning, lifting), None),
-            base.Equation((sliding,), law),
-        )
+        return (base.Equation((turning, lifting), None), base.Equation((sliding,), law))
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the leg from the screw to the nut."""

@@ -83,11 +83,7 @@ restitution = 0.6
     )
 
     angle: float | None = quantity(
-        None,
-        "angle at which it begins; zero in the model",
-        "",
-        unit="deg",
-        example="60 deg",
+        None, "angle at which it begins; zero in the model", "", unit="deg", example="60 deg"
     )
     position: float | None = quantity(
         None, "position along the axis at which it begins", "", unit="mm", example="20 mm"

@@ -39,11 +39,7 @@ class BodyKeys(NamedGroup):
     radius: float | None = quantity(None, "radius of a rod or cylinder", "", gt=0, example="8 mm")
     inner_radius: float | None = quantity(None, "inner radius of a hollow cylinder", "", gt=0, example="4 mm")
     size: Vector | None = vector(
-        None,
-        "edge lengths of a box along its axes",
-        "",
-        unit="mm",
-        example='["30 mm", "20 mm", "10 mm"]',
+        None, "edge lengths of a box along its axes", "", unit="mm", example='["30 mm", "20 mm", "10 mm"]'
     )
     mesh: str | None = file("STL file of a closed surface, global coordinates", "lever.stl")
     mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
@@ -55,11 +51,7 @@ class BodyKeys(NamedGroup):
     )
     scale: float | None = number(None, "size of a mesh over that of its triangles", "", gt=0, example="1.2")
     scaled_about: Vector | None = vector(
-        None,
-        "point that the scale leaves in place; by default the mass centre",
-        "",
-        unit="mm",
-        example=POINT,
+        None, "point that the scale leaves in place; by default the mass centre", "", unit="mm", example=POINT
     )
     mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
     centre: Vector = vector(None, "position of the mass centre", "", unit="mm", example=POINT, required=True)

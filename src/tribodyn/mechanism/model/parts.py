@@ -5,17 +5,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any, Final, Self
 
 from tribodyn.cases.case import NamedGroup, demand, dot, unit
-from tribodyn.cases.fields import (
-    Vector,
-    choice,
-    count,
-    name,
-    names,
-    number,
-    quantity,
-    switch,
-    vector,
-)
+from tribodyn.cases.fields import Vector, choice, count, name, names, number, quantity, switch, vector
 from tribodyn.cases.joint_keys import SURFACE, FilmKeys, FormKeys, LinerKeys
 from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanism.joints import JOINTS
@@ -138,11 +128,7 @@ class _Joint(NamedGroup):
     between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "crank"]')
     point: Vector = vector(None, "position of the joint", "", unit="mm", example=POINT, required=True)
     other_point: Vector | None = vector(
-        None,
-        "position on the second body, if the model has a gap to be closed",
-        "",
-        unit="mm",
-        example=POINT,
+        None, "position on the second body, if the model has a gap to be closed", "", unit="mm", example=POINT
     )
     axis: Vector | None = vector(
         None,

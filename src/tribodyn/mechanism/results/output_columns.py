@@ -54,10 +54,7 @@ def kinematic_columns(
     if real:
         estimate[:, :, list(real)] = superposed(IdealMechanism(assembly), outputs, times, real)
     estimate[:, ~np.array([output.has_displacement for output in outputs])] = np.nan
-    return {
-        "output_ratio": velocity_ratios(assembly, outputs, times),
-        "error_estimate": estimate,
-    }
+    return {"output_ratio": velocity_ratios(assembly, outputs, times), "error_estimate": estimate}
 
 
 def instant_errors(

@@ -91,12 +91,7 @@ def _body(name: str, number: int, points: FloatArray) -> dict[str, Any]:
     """Return a body as the script reads it: lines from the first point, or from the middle, to the others."""
     hub = points.mean(axis=1, keepdims=True)
     spread = points if points.shape[1] == 2 else np.concatenate([hub, points], axis=1)
-    return {
-        "name": name,
-        "colour": _colour(number),
-        "n": spread.shape[1],
-        "points": packed(spread),
-    }
+    return {"name": name, "colour": _colour(number), "n": spread.shape[1], "points": packed(spread)}
 
 
 def _solid(

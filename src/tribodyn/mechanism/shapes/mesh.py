@@ -32,14 +32,8 @@ class Facets(ClearanceShape):
 
     NAME: ClassVar[str] = "mesh"
     TYPES: ClassVar[tuple[str, ...]] = ("revolute", "cylindrical", "spherical")
-    NEEDED: ClassVar[dict[str, str]] = {
-        "facets": 'triangles, such as mesh = "socket.stl"',
-        "gap": "its gap",
-    }
-    EXAMPLE: ClassVar[dict[str, object]] = {
-        "facets": "10, -5, -5, 10, 5, -5, 10, 0, 5 mm",
-        "gap": "20 um",
-    }
+    NEEDED: ClassVar[dict[str, str]] = {"facets": 'triangles, such as mesh = "socket.stl"', "gap": "its gap"}
+    EXAMPLE: ClassVar[dict[str, object]] = {"facets": "10, -5, -5, 10, 5, -5, 10, 0, 5 mm", "gap": "20 um"}
     KEYS: ClassVar[type[NamedGroup]] = MeshKeys
 
     def check(self, kind: JointType, keys: Any) -> None:

@@ -129,12 +129,7 @@ def _panel(axes: Axes, runs: xr.Dataset) -> None:
         one = runs.sel(rtol=rtol)
         time, force = envelope(one["time"].values, one["force"].values)
         axes.semilogy(
-            time,
-            force,
-            color=colour,
-            linestyle=dash,
-            linewidth=0.8,
-            label=f"relative tolerance {rtol:.0e}",
+            time, force, color=colour, linestyle=dash, linewidth=0.8, label=f"relative tolerance {rtol:.0e}"
         )
         if bool(one["ended"]):
             axes.plot(time[-1], force[-1], "x", color=colour, markersize=6)

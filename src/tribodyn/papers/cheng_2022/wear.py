@@ -22,11 +22,7 @@ _PICOMETRE: Final = 1e-12
 
 
 def worn(
-    runs: Runs,
-    formulation: str,
-    clearance: float,
-    cycles: int,
-    changes: Mapping[str, object] | None = None,
+    runs: Runs, formulation: str, clearance: float, cycles: int, changes: Mapping[str, object] | None = None
 ) -> xr.Dataset:
     """Return a wear campaign in the paper's convention, with some keys of the case changed."""
     campaign = {"wear.cycles": cycles, "wear.paper_hardness_divisor": DIVISOR}

@@ -55,9 +55,7 @@ def mechanism_of(case: JournalCase) -> MechanismCase:
             "surfaces": case.surfaces,
             "asperities": case.asperities,
             "contact": case.contact,
-            "bodies": {
-                BODY: {"mass": case.journal.mass, "centre": _CENTRE, "inertia": inertia(case)},
-            },
+            "bodies": {BODY: {"mass": case.journal.mass, "centre": _CENTRE, "inertia": inertia(case)}},
             "joints": joints,
             "drives": {"motor": {"joint": BEARING, "speed": _speed(case)}},
             "loads": {name: load for name, load in _loads(case)},

@@ -243,8 +243,4 @@ def decorators(sources: Sources) -> Decorators:
 
         return decorate
 
-    return Decorators(
-        entry=decorator(listed=True),
-        kernel=decorator(),
-        inlined=decorator(inlined=True),
-    )
+    return Decorators(entry=decorator(listed=True), kernel=decorator(), inlined=decorator(inlined=True))

@@ -180,12 +180,7 @@ def growth(rows: FloatArray, weight: int, k: int, safety: float) -> float:
 
 
 @kernel
-def choose(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> None:
+def choose(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
     """Choose order and step for the next step, once enough equal steps have been taken."""
     k = state.k
     settled = state.equal_steps >= k + state.settings.wait

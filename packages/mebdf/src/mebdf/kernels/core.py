@@ -111,12 +111,7 @@ def resume(
 
 
 @inlined
-def _begin_step(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> int:
+def _begin_step(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> int:
     """Limit the step, and renew the iteration matrix where the step or its age demands it."""
     limit_step(state, rows)
     h = state.h

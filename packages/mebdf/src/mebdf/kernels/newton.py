@@ -13,15 +13,7 @@ from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
 from mebdf.kernels import state as at
-from mebdf.kernels.acceptance import (
-    FALSE,
-    IN_DOUBT,
-    OPEN,
-    PROVED,
-    SOLVED,
-    judge,
-    judge_beside_rounding,
-)
+from mebdf.kernels.acceptance import FALSE, IN_DOUBT, OPEN, PROVED, SOLVED, judge, judge_beside_rounding
 from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from mebdf.kernels.control import (
     CAUTION,
@@ -63,12 +55,7 @@ FORGIVEN: Final = 10.0
 
 
 @inlined
-def start_stage(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> int:
+def start_stage(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> int:
     """Fill the known part of the stage, predict, and ask for f where it is not known."""
     stage, h = state.stage, state.h
     _set_constant(state, rows)
@@ -234,10 +221,7 @@ def _set_residual(state: Numbers, rows: FloatArray) -> None:
 
 @kernel
 def _set_residual_with_mass(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
+    state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]
 ) -> None:
     """Fill the row RESIDUAL and note its norm over the equations with derivatives."""
     n = rows.shape[1]
@@ -290,12 +274,7 @@ def _converging(state: Numbers, size: float) -> bool:
 
 
 @inlined
-def finish_stage(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> None:
+def finish_stage(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
     stage, weight = state.stage, error_weight(places)
     state.phase = START_STAGE
@@ -337,12 +316,7 @@ def _keep(state: Numbers, rows: FloatArray, y: int, f: int) -> None:
 
 
 @inlined
-def _test_error(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> None:
+def _test_error(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
     """Compare ∇^{k+1} ȳ1 / ((k + 1) H_k), the local error of stage 1, with the tolerance."""
     k, weight = state.k, error_weight(places)
     push(rows, at.Y_1, k + 2, at.STAGE_HISTORY)
@@ -357,11 +331,7 @@ def _test_error(
 
 @inlined
 def _is_of_the_start(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-    error: float,
+    state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64], error: float
 ) -> bool:
     """Tell whether an error is that of the algebraic values which the step starts from.
 

@@ -93,12 +93,7 @@ def _is_outgrown(state: Numbers, n: int, massive: bool) -> bool:
 
 
 @inlined
-def begin_stages(
-    state: Numbers,
-    rows: FloatArray,
-    matrices: FloatArray,
-    massive: bool,
-) -> None:
+def begin_stages(state: Numbers, rows: FloatArray, matrices: FloatArray, massive: bool) -> None:
     """Begin with stage 1 if the matrix is regular and nothing outgrows the step; else go back to another one.
 
     An old Jacobian is renewed first; where the newest one is outgrown the one before it follows, then none.

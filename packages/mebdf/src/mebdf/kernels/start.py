@@ -20,12 +20,7 @@ SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
 
 
 @kernel
-def start(
-    state: Numbers,
-    rows: FloatArray,
-    mass: FloatArray,
-    places: NDArray[np.int64],
-) -> int:
+def start(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> int:
     """Go through the phases before the first step; return what is needed, 0 when it can begin."""
     if state.phase == BEGIN:
         set_weights(state, rows, mass, places)

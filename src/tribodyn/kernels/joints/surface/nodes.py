@@ -13,16 +13,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.columns import (
-    APPROACH,
-    AREA,
-    ENTRY,
-    FRACTION,
-    INTERVAL,
-    PART,
-    PITCH,
-    end_list,
-)
+from tribodyn.kernels.joints.columns import APPROACH, AREA, ENTRY, FRACTION, INTERVAL, PART, PITCH, end_list
 from tribodyn.kernels.joints.surface.data import AREA as NODE_AREA
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.data import NORMAL as NODE_NORMAL

@@ -24,14 +24,7 @@ from typing import Any, Final, NamedTuple
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.block import (
-    ALONG,
-    APPROACHING,
-    AROUND,
-    NEARING,
-    groups_of,
-    rings_from,
-)
+from tribodyn.kernels.joints.surface.block import ALONG, APPROACHING, AROUND, NEARING, groups_of, rings_from
 from tribodyn.kernels.joints.surface.data import COS, GAP, LIFT, SIN, SurfaceData
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, COLUMNS, SurfaceMemory
 from tribodyn.kernels.joints.surface.wrench import slip_square

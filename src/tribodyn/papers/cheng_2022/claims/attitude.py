@@ -123,10 +123,7 @@ def y_velocities_differ(trial: Trial) -> Finding:
 
 
 def _over_windows(
-    trial: Trial,
-    axis: int,
-    worst: Callable[[FloatArray], float],
-    more: Mapping[str, object] | None = None,
+    trial: Trial, axis: int, worst: Callable[[FloatArray], float], more: Mapping[str, object] | None = None
 ) -> Finding:
     shares = np.array([_apart(trial, axis, window, more) for window in WINDOWS])
     times = ", ".join(f"{window * 1e3:g}" for window in WINDOWS)

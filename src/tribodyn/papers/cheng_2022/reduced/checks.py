@@ -73,12 +73,7 @@ def warnings(
 
 
 def notes(
-    vsv: Vsv,
-    found: Mapping[str, float],
-    pressure: float,
-    t_end: float,
-    turns: FloatArray,
-    carried: bool,
+    vsv: Vsv, found: Mapping[str, float], pressure: float, t_end: float, turns: FloatArray, carried: bool
 ) -> list[str]:
     """Return notes on numbers that are valid, one sentence each.
 

@@ -43,11 +43,7 @@ def output_columns(
 
 
 def output_fields(
-    outputs: Mapping[str, VaneOutput],
-    times: FloatArray,
-    error: FloatArray,
-    crank: FloatArray,
-    period: float,
+    outputs: Mapping[str, VaneOutput], times: FloatArray, error: FloatArray, crank: FloatArray, period: float
 ) -> dict[str, FloatArray]:
     """Return the limits of the errors of outputs, and their errors at angles of the crank, or times.
 

@@ -251,11 +251,7 @@ class VsvSystem:
                 **self._fields(run),
                 **of_reversals(memory.peaks, WATCHED),
                 **output_fields(
-                    self.case.outputs,
-                    run.solution.t,
-                    outputs["output_error"],
-                    rows["theta_a"],
-                    self.period,
+                    self.case.outputs, run.solution.t, outputs["output_error"], rows["theta_a"], self.period
                 ),
             },
             attributes={

@@ -54,12 +54,7 @@ CHAPTERS: Final = (
             _CLEARANCE.section,
         ),
     ),
-    Chapter(
-        "worn",
-        "Wear",
-        "What is worn off the bushing.",
-        (WEAR_MAP, WEAR_HISTORY, WEAR_STAGES),
-    ),
+    Chapter("worn", "Wear", "What is worn off the bushing.", (WEAR_MAP, WEAR_HISTORY, WEAR_STAGES)),
 )
 """Chapters in reading order."""
 
