@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import platform
 import subprocess
 import sys
@@ -24,7 +23,11 @@ class Kernels(BuildHookInterface[Any]):
             return
         root = Path(self.root)
         places = [root / "src", root / "packages" / "mebdf" / "src"]
-        path = os.pathsep.join([*map(str, filter(Path.is_dir, places)), os.environ.get("PYTHONPATH", "")])
-        command = [sys.executable, "-m", "mebdf.compiled.make", self.metadata.core.name]
-        subprocess.run(command, cwd=root, env=os.environ | {"PYTHONPATH": path}, check=True)
+        # Not by PYTHONPATH: the environment of a build takes from it what is installed as editable beside it.
+        paths = [*map(str, filter(Path.is_dir, places))]
+        package = self.metadata.core.name
+        program = (
+            f"import sys; sys.path[:0] = {paths!r}; from mebdf.compiled.make import main; main([{package!r}])"
+        )
+        subprocess.run([sys.executable, "-c", program], cwd=root, check=True)
         build_data["pure_python"], build_data["tag"] = False, TAG
