@@ -12,7 +12,7 @@ from scipy.integrate import trapezoid
 
 import tribodyn as td
 from tribodyn.integrate import integrate
-from tribodyn.kernels.ledger import NOW, POSITION, RATE, SPEED, SWING, add_part, begin, new_books
+from tribodyn.kernels.ledger import NOW, POSITION, RATE, SPEED, SWING, add_part, begin, books_type, new_books
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
@@ -133,8 +133,8 @@ def test_a_load_of_kilohertz_closes(tmp_path, load):
 def test_what_swings_across_its_velocity_does_no_work():
     # F in phase with q, in steps of a tenth of a wave that differ by up to a half.
     steps = 0.1 * (1.0 + 0.5 * np.sin(np.arange(400) ** 2))
-    books = new_books(0, 1, 1, 0)
-    backward = new_books(0, 1, 1)
+    books = new_books(books_type(0, 1, 1), 0)
+    backward = new_books(books_type(0, 1, 1))
     for t in np.cumsum(steps):
         phase = 2.0 * math.pi * t
         for book in (books, backward):

@@ -20,7 +20,7 @@ from tribodyn.kernels.film.wrench import film_wrench
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import Scratch
 from tribodyn.kernels.mechanism.data import REPORTS, SLOPES, CouplingNow
-from tribodyn.kernels.mechanism.film import by_address
+from tribodyn.kernels.mechanism.film import film_force
 from tribodyn.lubrication import Film, FilmGrid, Roughness, stacked_data, stacked_memory
 from tribodyn.mechanisms import results
 from tribodyn.presets.journal.system import journal_of
@@ -41,7 +41,6 @@ class JointFilm:
     def __init__(self, film: Film) -> None:
         self.films = stacked_data([film, film], [None, None])
         self.memory, self.oil = stacked_memory(self.films), new_oil(2)
-        self.function = by_address(self.films, self.memory).function
 
     def __call__(
         self, motion: FloatArray, turn: Sequence[float] = (0.0, 0.0, 0.0), mode: float = REPORTS
@@ -50,7 +49,7 @@ class JointFilm:
         rotation = Rotation.from_rotvec(turn) * Rotation.from_rotvec(motion[3:6])
         now: Any = new_record(CouplingNow)
         now.pose = pose_at(motion[:3], rotation.as_matrix(), motion[6:9], motion[9:])
-        self.function(mode, self.films, self.memory, 1, now, new_record(Scratch), self.oil)
+        film_force(mode, self.films, self.memory, 1, now, new_record(Scratch), self.oil)
         return now
 
 

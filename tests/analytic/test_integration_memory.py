@@ -65,7 +65,7 @@ class Ledger:
             self.rhs, self.jac, self.enter, self.advance, nothing, self.observe, nothing
         )
         inside = tuple(b for b in self.breakpoints if b < end)
-        memory = ledger.new_books(0, 2, 1), np.zeros(1)
+        memory = ledger.new_books(ledger.books_type(0, 2, 1)), np.zeros(1)
         return make_problem(functions, memory, [1.0, 0.0], end, inside, [rtol, rtol], 3)
 
 
@@ -149,7 +149,7 @@ class Walls:
         functions = CompiledFunctions(
             self.rhs, self.jac, self.enter, self.advance, self.accept, self.observe, nothing
         )
-        memory = np.array([1.0]), ledger.new_books(0, 1, 1)
+        memory = np.array([1.0]), ledger.new_books(ledger.books_type(0, 1, 1))
         # The breakpoint at 0.0301 s lies in flight, that at 0.011 s inside the first contact.
         return make_problem(functions, memory, [0.0, 1.0], 0.1, (0.011, 0.0301), [1e-8, 1e-6], 2)
 

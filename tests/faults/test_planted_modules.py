@@ -49,6 +49,7 @@ REFUSED_BY = {
     "find": ("find", "vsv", *FOUND[-4:], "--workers", "-1"),
     "workbench": ("workbench", "vsv", "--port", "-1"),
     "report": ("report", "missing"),
+    "export": ("export", "missing", "--csv", "forces"),
     "bounce": ("bounce", "vsv", "--law", "nothing"),
     "compare": ("compare", "missing", "missing"),
     "stribeck": ("stribeck", "missing"),
