@@ -534,8 +534,8 @@ def test_while_the_server_works_the_page_says_so(at: Opened) -> None:
         lines[0].send(json.dumps(words))
 
     person = at(line=line)
-    person.wait_for("server.state === 'loading'")
-    assert person.page.locator("#state").inner_text() == "The first run is on its way."
+    person.wait_for("server.message === 'loading the equations'")
+    assert person.page.locator("#state").inner_text() == "loading the equations · about 60 s"
     assert person.control(CLEARANCE).is_visible()
     lines[0].send(runs[0])
     person.wait_until_shown({})

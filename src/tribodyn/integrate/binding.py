@@ -51,7 +51,7 @@ class Binding:
         """Return dy/dt, a new array of shape (n,)."""
         self._statistics.rhs_evaluations += 1
         f = np.empty(self._n)
-        y = np.require(y, requirements="CAW")  # what some integrators give must not be written to
+        y = np.require(y, requirements=["C", "A", "W"])  # what some integrators give must not be written to
         self._rhs(t, y, self._data, self._memory, f)
         if not all_finite(f):
             self.note = f"rate of {self.first_not_finite(f)} was not finite at t = {t:.9g} s"
@@ -84,7 +84,7 @@ class Binding:
         """Return the array that ``jac`` fills: (n, n), or (n_entries,) with an algebra of its own."""
         self._statistics.jacobian_evaluations += 1
         shape = (self._n, self._n) if self._places is None else self._places.shape[1:]
-        jacobian, y = np.zeros(shape), np.require(y, requirements="CAW")
+        jacobian, y = np.zeros(shape), np.require(y, requirements=["C", "A", "W"])
         self._jac(t, y, self._data, self._memory, np.empty(self._n), jacobian)
         return jacobian
 

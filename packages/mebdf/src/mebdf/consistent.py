@@ -234,11 +234,12 @@ class _Start:
                 return np.full(scale.size, np.nan)
             return found
         matrix = _chosen([_dense(order @ free) for order in orders], levels)
-        if not np.all(np.isfinite(matrix)):
-            return np.full(scale.size, np.nan)
         size = abs(free.T) @ scale
         equation = np.maximum(np.max(np.abs(matrix) * size, axis=1), np.finfo(np.float64).tiny)
-        scaled = lstsq(matrix * size / equation[:, None], -residual / equation, cond=SINGULAR)[0]
+        matrix, residual = matrix * size / equation[:, None], -residual / equation
+        if not (np.isfinite(matrix).all() and np.isfinite(residual).all()):
+            return np.full(scale.size, np.nan)
+        scaled = lstsq(matrix, residual, cond=SINGULAR)[0]
         return np.asarray(free @ (size * scaled))
 
     def _improved(

@@ -112,7 +112,7 @@ def level() -> str:
 def _flags() -> set[str]:
     """Return the abilities of the processor by the names of the system; none where it names none."""
     try:
-        with _CPU.open() as lines:
+        with _CPU.open(encoding="ascii", errors="replace") as lines:
             found = next((line for line in lines if line.startswith("flags")), "")
     except OSError:
         return set()
