@@ -14,17 +14,24 @@ CRANK, ROD = 0.05, 0.12
 BAR = {"inertia": "1e-5, 2.5e-4, 2.5e-4 kg m^2"}
 
 
-def press(**clearance: str) -> td.Mechanism:
-    """Return a slider-crank at 60 rpm with outputs, its wrist ideal or with a clearance."""
-    drawn = (
-        td.Mechanism("Slider-crank", run={"cycles": 1, "output_interval": "5 ms", "step_rows": 0})
-        .body("crank", mass="0.3 kg", centre="0, 0, 0 mm", **BAR)
+def linkage(inertia: str, **run: object) -> td.Mechanism:
+    """Return a slider-crank at its dead centre, with the inertia of its crank."""
+    return (
+        td.Mechanism("Slider-crank", run={"step_rows": 0, **run})
+        .body("crank", mass="0.3 kg", centre="0, 0, 0 mm", inertia=inertia)
         .body("rod", mass="0.2 kg", centre="110, 0, 0 mm", **BAR)
         .body("slider", mass="0.14 kg", centre="170, 0, 0 mm", **BAR)
         .revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
         .revolute("crankpin", "crank", "rod", point="50, 0, 0 mm", axis=[0, 0, 1])
         .revolute("wrist", "rod", "slider", point="170, 0, 0 mm", axis=[0, 0, 1])
         .prismatic("guide", "ground", "slider", point="170, 0, 0 mm", axis=[1, 0, 0])
+    )
+
+
+def press(**clearance: str) -> td.Mechanism:
+    """Return a slider-crank at 60 rpm with outputs, its wrist ideal or with a clearance."""
+    drawn = (
+        linkage(**BAR, cycles=1, output_interval="5 ms")
         .drive("motor", "main", speed="60 rpm")
         .load("push", "slider", direction=[-1, 0, 0], force="200 N")
         .output("way", "slider", along=[1, 0, 0])
@@ -121,14 +128,7 @@ def test_an_output_that_drives_leave_free_has_no_ideal_value() -> None:
 def pushed(push: str, **output: str) -> td.Mechanism:
     """Return a slider-crank at its dead centre with play in the wrist, set in motion as named."""
     drawn = (
-        td.Mechanism("Pushed slider-crank", run={"duration": "40 ms", "step_rows": 0})
-        .body("crank", mass="0.3 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
-        .body("rod", mass="0.2 kg", centre="110, 0, 0 mm", **BAR)
-        .body("slider", mass="0.14 kg", centre="170, 0, 0 mm", **BAR)
-        .revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
-        .revolute("crankpin", "crank", "rod", point="50, 0, 0 mm", axis=[0, 0, 1])
-        .revolute("wrist", "rod", "slider", point="170, 0, 0 mm", axis=[0, 0, 1])
-        .prismatic("guide", "ground", "slider", point="170, 0, 0 mm", axis=[1, 0, 0])
+        linkage("1e-3, 1e-3, 1e-3 kg m^2", duration="40 ms")
         .clearance("wrist", radial="20 um", radius="10 mm", length="20 mm")
         .output("way", "slider", along=[1, 0, 0], **output)
     )

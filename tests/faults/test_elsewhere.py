@@ -12,6 +12,7 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -64,22 +65,29 @@ def environment(system: str, home: Path) -> dict[str, str]:
     return os.environ | known | there
 
 
+def begun(arguments: Sequence[str], system: str, folder: Path) -> subprocess.Popen[str]:
+    """Return a process of Python that has begun in a folder as if elsewhere."""
+    return subprocess.Popen(
+        [sys.executable, *arguments],
+        cwd=folder,
+        env=environment(system, folder),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="cp1252",
+    )
+
+
 def done_in(home: Path, system: str) -> dict[str, str]:
     """Return what each command prints, all run in a home."""
     home.mkdir()
     (home / "run.csv").write_text(MEASURED, encoding="utf-8")
     printed = {}
     for name, command in COMMANDS.items():
-        done = subprocess.run(
-            [sys.executable, "-m", "tribodyn", *command],
-            cwd=home,
-            env=environment(system, home),
-            capture_output=True,
-            encoding="cp1252",
-            timeout=LONG,
-        )
-        assert done.returncode == 0, f"{name}: {done.stderr}"
-        printed[name] = TIMED.sub("", done.stdout)
+        with begun(["-m", "tribodyn", *command], system, home) as process:
+            out, err = process.communicate(timeout=LONG)
+        assert process.returncode == 0, f"{name}: {err}"
+        printed[name] = TIMED.sub("", out)
     return printed
 
 
@@ -105,18 +113,9 @@ def test_commands_compute_the_same_elsewhere(
     printed = done_in(home, system)
     for name in ("find", "fit", "compare"):
         assert printed[name] == here[1][name]
-    with (
-        xr.open_dataset(home / "run/result.nc") as found,
-        xr.open_dataset(here[0] / "run/result.nc") as known,
-    ):
-        xr.testing.assert_equal(found, known)
-    with (
-        xr.open_dataset(home / "sweep/sweep.nc") as found,
-        xr.open_dataset(here[0] / "sweep/sweep.nc") as known,
-    ):
-        xr.testing.assert_equal(
-            found.drop_vars(TIMES, errors="ignore"), known.drop_vars(TIMES, errors="ignore")
-        )
+    for result, dropped in (("run/result.nc", ()), ("sweep/sweep.nc", TIMES)):
+        with xr.open_dataset(home / result) as found, xr.open_dataset(here[0] / result) as known:
+            xr.testing.assert_equal(*(of.drop_vars(dropped, errors="ignore") for of in (found, known)))
     written, known_files = (
         {path.relative_to(root) for path in root.rglob("*.*")} for root in (home, here[0])
     )
@@ -126,14 +125,7 @@ def test_commands_compute_the_same_elsewhere(
 @pytest.mark.parametrize("system", ["win32", "darwin"])
 def test_ctrl_c_saves_what_was_computed_elsewhere(system: str, tmp_path: Path) -> None:
     command = ["run", "slider-crank", "--set", "run.cycles=400", "--no-figures", "--no-report", "-o", "long"]
-    with subprocess.Popen(
-        [sys.executable, "-m", "tribodyn", *command],
-        cwd=tmp_path,
-        env=environment(system, tmp_path),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        encoding="cp1252",
-    ) as process:
+    with begun(["-m", "tribodyn", *command], system, tmp_path) as process:
         assert process.stderr is not None
         while " 10 %" not in (line := process.stderr.readline()):
             assert line, "the run ended before it could be stopped"
@@ -148,14 +140,7 @@ def test_ctrl_c_saves_what_was_computed_elsewhere(system: str, tmp_path: Path) -
 @pytest.mark.parametrize("system", ["win32", "darwin"])
 def test_the_workbench_begins_and_ends_elsewhere(system: str, tmp_path: Path) -> None:
     command = ["workbench", "slider-crank", "--json", "--workers", "1"]
-    with subprocess.Popen(
-        [sys.executable, "-m", "tribodyn", *command],
-        cwd=tmp_path,
-        env=environment(system, tmp_path),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        encoding="cp1252",
-    ) as process:
+    with begun(["-m", "tribodyn", *command], system, tmp_path) as process:
         assert process.stdout is not None
         address = json.loads("".join(process.stdout.readline() for _ in range(3)))["address"]
         assert ("localhost" in address) == (system == "win32")
@@ -173,27 +158,11 @@ def test_two_cannot_write_into_one_folder_elsewhere(system: str, tmp_path: Path)
         "from pathlib import Path\nfrom tribodyn.core.platforms import locked\n"
         "with locked(Path('.')) as mine: print(mine, flush=True); input()"
     )
-    with subprocess.Popen(
-        [sys.executable, "-c", program],
-        cwd=tmp_path,
-        env=environment(system, tmp_path),
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        encoding="cp1252",
-    ) as process:
-        assert process.stdin is not None
+    with begun(["-c", program], system, tmp_path) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "True\n"
-        other = subprocess.run(
-            [sys.executable, "-c", program],
-            cwd=tmp_path,
-            env=environment(system, tmp_path),
-            input="\n",
-            stdout=subprocess.PIPE,
-            encoding="cp1252",
-            timeout=LONG,
-        )
-        assert other.stdout == "False\n"
+        with begun(["-c", program], system, tmp_path) as other:
+            assert other.communicate("\n", timeout=LONG)[0] == "False\n"
         process.communicate("\n", timeout=LONG)
 
 

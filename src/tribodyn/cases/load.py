@@ -52,7 +52,7 @@ _BARE: Final = re.compile(
 )
 """A line whose value is a quantity without quotes, a number with a decimal comma, or a word."""
 _BACKSLASH: Final = re.compile(r"\"[^\"]*\\(?![btnfr\"\\])")
-"""A backslash in double quotes that begins no sign of TOML, or a path that ends in U or u."""
+"""A backslash in double quotes that begins no sign of TOML, or one by its number, as paths seem to."""
 _OPEN: Final = re.compile(r"\s*[A-Za-z0-9_.-]+\s*=\s*\"[^\"]+")
 _TABLE: Final = re.compile(r"\s*\[\s*([A-Za-z0-9_.\"' -]+?)\s*\]\s*(?:#|$)")
 _KEY: Final = re.compile(r"\s*([A-Za-z0-9_.\"' -]+?)\s*=")

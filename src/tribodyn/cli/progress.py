@@ -36,7 +36,6 @@ SIMULATED: Final = Measure("{n:.2f} of {total:.2f} s simulated", "{reached:.4g} 
 CYCLES: Final = Measure(
     "{n:.0f} of {total:.0f} cycles of wear", "{reached:.0f} of {total:.0f} cycles of wear"
 )
-CASES: Final = Measure("{n:.0f} of {total:.0f} cases", "{reached:.0f} of {total:.0f} cases")
 POINTS: Final = Measure("{n:.0f} of {total:.0f} points", "{reached:.0f} of {total:.0f} points")
 
 

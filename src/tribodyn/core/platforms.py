@@ -5,9 +5,7 @@ Linux is what the tests run on. Windows and macOS are run as if: a test takes fr
 
 from __future__ import annotations
 
-import ctypes
 import math
-import multiprocessing
 import os
 import signal
 import sys
@@ -81,12 +79,16 @@ def give_back_large_blocks() -> None:
     kept it made 190 MB. Elsewhere than with glibc nothing is done.
     """
     if sys.platform == "linux":
+        import ctypes
+
         with suppress(AttributeError, OSError):
             ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, _LARGE)
 
 
 def start_context() -> ForkServerContext | SpawnContext:
     """Return the way in which processes start."""
+    import multiprocessing
+
     if METHOD == "forkserver":
         return multiprocessing.get_context("forkserver")
     return multiprocessing.get_context("spawn")

@@ -65,7 +65,11 @@ def unit_of(run: xr.Dataset, name: str) -> str:
 
 
 def table(
-    run: xr.Dataset, names: Sequence[str], *, over: str | None = None, dashes: str = ""
+    run: xr.Dataset,
+    names: Sequence[str],
+    *,
+    over: str | None = None,
+    keys: tuple[str, str] = ("names", "over"),
 ) -> pd.DataFrame:
     """Return columns of a result as a table: a row for each time, the unit of each column in its header.
 
@@ -78,8 +82,8 @@ def table(
         after points.
     over
         A joint, whose angle [deg] comes first, or the name of a column; none else.
-    dashes
-        Before the names of arguments in messages.
+    keys
+        Names of both arguments in messages.
 
     Raises
     ------
@@ -88,11 +92,11 @@ def table(
     """
     import pandas as pd
 
-    data = {} if over is None else _coordinate(run, over, f"{dashes}over")
+    data = {} if over is None else _coordinate(run, over, keys[1])
     data[_with_unit("time", "s")] = run["time"].values
     for name in names:
-        for column in _columns(run, name, f"{dashes}{'csv' if dashes else 'names'}"):
-            values = variable(run, column, name)
+        for column in _columns(run, name, keys[0]):
+            values = variable(run, column, keys[0])
             if name not in GROUPS or np.nan_to_num(values).any():
                 data[_with_unit(column, unit_of(run, column))] = values
     return pd.DataFrame(data)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Final, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 
 class Verdict(StrEnum):
@@ -203,7 +203,3 @@ class Outcome:
 
     comparisons: tuple[Comparison, ...]
     plot: Plot | None = None
-
-
-LONGEST_EXPLANATION: Final = 3
-"""Sentences in which a miss is explained, at most."""

@@ -30,7 +30,7 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.tables import value_at
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.files import read_regular
+from tribodyn.core.files import read_regular, text_of
 from tribodyn.core.quoting import as_given
 from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.simulation import simulate
@@ -180,8 +180,8 @@ def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     """
     try:
         content = read_regular(path, LARGEST)
-        rows = list(csv.DictReader(content.decode("utf-8-sig").splitlines(), skipinitialspace=True))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        rows = list(csv.DictReader(text_of(content).splitlines(), skipinitialspace=True))
+    except (OSError, ValueError, csv.Error) as error:
         raise InputError(f"{as_given(str(path))} cannot be read: {error}", key="NAME") from None
     if not rows or not set(NEEDED) <= rows[0].keys():
         raise InputError(f"{as_given(str(path))} needs the columns {', '.join(NEEDED)}", key="NAME")

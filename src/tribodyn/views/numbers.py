@@ -11,15 +11,17 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from tribodyn.results.summary import KeyResult
 
+LENGTHS: Final = (("nm", 1e-9), ("µm", 1e-6), ("mm", 1e-3), ("m", 1.0))
+"""Units of length with their sizes [m], the finest first. Nothing is finer than a nanometre."""
 _STEPS: Final = (
-    (("nm", 1e-9), ("µm", 1e-6), ("mm", 1e-3), ("m", 1.0)),
+    LENGTHS,
     (("mN", 1e-3), ("N", 1.0), ("kN", 1e3), ("MN", 1e6)),
     (("mN m", 1e-3), ("N m", 1.0), ("kN m", 1e3)),
     (("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)),
     (("mW", 1e-3), ("W", 1.0), ("kW", 1e3), ("MW", 1e6)),
     (("µJ", 1e-6), ("mJ", 1e-3), ("J", 1.0), ("kJ", 1e3)),
 )
-"""Units of one quantity with their sizes, the finest first. Nothing is finer than a nanometre."""
+"""Units of one quantity with their sizes, the finest first."""
 _FAMILY: Final = {unit: steps for steps in _STEPS for unit, _ in steps}
 
 _UNIT: Final = re.compile(r"(?<![A-Za-z])(u(?=[mNs](?![A-Za-z]))|deg(?![A-Za-z]))")

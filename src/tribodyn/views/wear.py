@@ -9,12 +9,12 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.bushing import unrolled
 from tribodyn.views.charts import ChartCurve, Panel, over
-from tribodyn.views.numbers import in_words
+from tribodyn.views.numbers import LENGTHS, in_words
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import peak, series
 from tribodyn.views.unrolled import best_cut, unloaded_middle, wall_angles
 
-UNITS: Final = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9}
+UNITS: Final = dict(reversed(LENGTHS[:-1]))
 """Units of depth [m], the coarsest first."""
 PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
     (

@@ -39,7 +39,7 @@ def execute(args: Namespace) -> int:
     names = [name.strip() for name in args.csv.split(",") if name.strip()]
     if not names:
         raise InputError(f"{as_given(args.csv)}; allowed: names of columns, as forces,outputs", key="--csv")
-    columns = table(read(args.directory), names, over=args.over, dashes="--")
+    columns = table(read(args.directory), names, over=args.over, keys=("--csv", "--over"))
     comma = args.decimal == "comma"
     # Spreadsheets know UTF-8 by its mark.
     text = columns.to_csv(index=False, sep=";" if comma else ",", decimal="," if comma else ".")

@@ -43,7 +43,7 @@ class IdealOutputs:
     components
         Of each output, shape (n_t, m) each; NaN where drives do not determine it.
     notes
-        Why an output has no ideal value, in words.
+        Why all have no ideal value, or from when on, in words.
     free
         Whether an output depends on a freedom that drives leave.
     freedoms
@@ -86,15 +86,8 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath
         if not is_free:
             whole[known] = components
         found.append(whole)
-    notes = [
-        f"output {output.name} depends on a freedom that drives and ideal joints leave: it has no ideal "
-        "value and no error"
-        for output, is_free in zip(outputs, free, strict=True)
-        if is_free
-    ]
-    if not known.all():
-        notes.append(unreached(times, states))
-    return IdealOutputs(tuple(found), tuple(notes), tuple(free), mechanism.freedoms)
+    notes = () if known.all() else (unreached(times, states),)
+    return IdealOutputs(tuple(found), notes, tuple(free), mechanism.freedoms)
 
 
 def compared(
@@ -119,37 +112,52 @@ def compared(
     moved
         Gives the angle or the position that a joint had in the run, shape (n_t,).
     """
-    ideal = _at_the_same_place(assembly, outputs, path, moved)
+    ideal, notes = _at_the_same_place(assembly, outputs, path, moved)
     real = [output.components(motion) for output in outputs]
-    pairs = list(zip(outputs, real, ideal.components, strict=True))
+    pairs = list(zip(outputs, real, ideal, strict=True))
     return {
         "output_value": np.stack([output.value(found) for output, found, _ in pairs], axis=1),
         "output_ideal": np.stack([output.value(at_ideal) for output, _, at_ideal in pairs], axis=1),
         "output_error": np.stack([output.error(*both) for output, *both in pairs], axis=1),
-    }, ideal.notes
+    }, tuple(notes)
 
 
 def _at_the_same_place(
     assembly: Assembly, outputs: Sequence[Output], path: DrivePath, moved: Callable[[str], FloatArray]
-) -> IdealOutputs:
-    """Return ideal outputs, those that drives leave free where joints are as they were in the run."""
+) -> tuple[list[FloatArray], list[str]]:
+    """Return ideal outputs, those left free where joints are as they were in the run, and notes."""
     ideal = ideal_outputs(assembly, outputs, path)
-    case, components, notes = assembly.model.case, list(ideal.components), list(ideal.notes)
-    once = math.isinf(path.turn) and path.times.size > 1
-    for number, output in enumerate(outputs):
-        joints = [output.keys.follows] if output.keys.follows else case.pushed if ideal.freedoms else []
-        if not joints or not once:
-            continue
+    components, free, notes = list(ideal.components), list(ideal.free), list(ideal.notes)
+    for joints, numbers in _followed(assembly, outputs, path, ideal.freedoms).items():
         led = _following(assembly, path.times, {joint: moved(joint) for joint in joints})
-        anew = ideal_outputs(led, [output], path)
-        if anew.free == (False,):
-            components[number] = anew.components[0]
-            notes = [note for note in notes if not note.startswith(f"output {output.name} ")]
-            notes += [
-                f"the error of output {output.name} is that at the same place of {' and '.join(joints)}",
-                *anew.notes,
-            ]
-    return replace(ideal, components=tuple(components), notes=tuple(notes))
+        anew = ideal_outputs(led, [outputs[number] for number in numbers], path)
+        settled = [k for k, is_free in enumerate(anew.free) if not is_free]
+        for k in settled:
+            components[numbers[k]], free[numbers[k]] = anew.components[k], False
+            name, places = outputs[numbers[k]].name, " and ".join(joints)
+            notes.append(f"the error of output {name} is that at the same place of {places}")
+        notes += anew.notes if settled else ()
+    left = [
+        f"output {output.name} depends on a freedom that drives and ideal joints leave: it has no ideal "
+        "value and no error"
+        for output, is_free in zip(outputs, free, strict=True)
+        if is_free
+    ]
+    return components, left + notes
+
+
+def _followed(
+    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, freedoms: int
+) -> dict[tuple[str, ...], list[int]]:
+    """Return the numbers of outputs by the joints whose motion in the run the ideal mechanism has, too."""
+    found: dict[tuple[str, ...], list[int]] = {}
+    if assembly.strain or not math.isinf(path.turn) or path.times.size < 2:
+        return found
+    pushed = tuple(assembly.model.case.pushed) if freedoms else ()
+    for number, output in enumerate(outputs):
+        if joints := (output.keys.follows,) if output.keys.follows else pushed:
+            found.setdefault(joints, []).append(number)
+    return found
 
 
 def _following(assembly: Assembly, times: FloatArray, joints: Mapping[str, FloatArray]) -> Assembly:
