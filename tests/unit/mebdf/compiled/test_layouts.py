@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import struct
-from typing import Annotated, Any, NamedTuple
+from types import GenericAlias, SimpleNamespace
+from typing import Annotated, Any, NamedTuple, TypeVar
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray, FloatMatrix
-from mebdf.compiled.layouts import STACKED, Absent, Array, Number, One, Tuple, annotated, digest, layout_of
+from mebdf.compiled.layouts import (
+    STACKED,
+    Absent,
+    Array,
+    Number,
+    One,
+    Tuple,
+    annotated,
+    digest,
+    layout_of,
+    of_hint,
+)
 
 FIELDS = np.dtype((np.record, [("a", "f8"), ("b", "i8", (2,))]))
 OTHER = np.dtype((np.record, [("a", "f8"), ("c", "i8", (2,))]))
@@ -47,6 +59,13 @@ def test_annotations_say_the_layouts() -> None:
         Tuple(Data, (Array(FIELDS, 1), Array(FLOAT, 3), Array(FLOAT, 1))),
         *(Absent(), Array(np.dtype(bool), 1)),
     )
+
+
+def test_an_annotation_may_be_a_type_alias() -> None:
+    entry = TypeVar("entry", bound=np.generic)
+    generic = GenericAlias(SimpleNamespace(__value__=np.ndarray[Any, np.dtype[entry]]), (np.float64,))  # type: ignore[arg-type]
+    plain = SimpleNamespace(__value__=generic)
+    assert of_hint(generic) == of_hint(plain) == of_hint(NDArray[np.float64]) == Array(FLOAT, 1)
 
 
 def test_an_annotation_that_says_too_little_is_named() -> None:

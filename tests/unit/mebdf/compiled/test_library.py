@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from mebdf.compiled import build as libraries_build
 from mebdf.compiled import library as libraries
 from mebdf.compiled import make
 from mebdf.compiled.library import MANIFEST, Library, NoMachineCode, Sources, fingerprint, library
@@ -114,6 +115,19 @@ def test_two_builds_give_the_same_bytes(copy: Path) -> None:
     (sources(copy).folder / MANIFEST).unlink()
     build(copy)
     assert content(copy) == before
+
+
+def test_paths_of_the_machine_leave_nothing_in_the_code() -> None:
+    kept = []
+    for path in ("/a", "/a/longer/path"):
+        data, name = f"pickled with {path}", "0123abcd"
+        text = (
+            f'@.const.pickledata.{name} = internal constant [{len(data)} x i8] c"{data}"\n'
+            f"@.const.picklebuf.{name} = internal constant {{ ptr, i32, ptr }} "
+            f"{{ ptr @.const.pickledata.{name}, i32 {len(data)}, ptr null }}, align 8\n"
+        )
+        kept.append(libraries_build._portable(text))
+    assert kept[0] == kept[1]
 
 
 def test_a_wheel_of_the_same_sources_gives_its_library(copy: Path) -> None:

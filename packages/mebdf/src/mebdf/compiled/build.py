@@ -122,7 +122,13 @@ def _portable(text: str) -> str:
     text = re.sub(r"^define internal (i32|void) @(k\d+(?:_law)?)\(", r"define \1 @\2(", text, flags=re.M)
     # Exceptions of numba's own code, pickled with paths of the machine that compiled: nobody raises them.
     text = re.sub(
-        r'^(@\.const\.pickledata[\w.]* = internal constant \[\d+ x i8\]) c".*"',
+        r"^(@\.const\.pickledata\S* = internal constant) .*$",
+        r"\1 [1 x i8] zeroinitializer",
+        text,
+        flags=re.M,
+    )
+    text = re.sub(
+        r"^(@\.const\.picklebuf\S* = internal constant \{[^}]*\}) .*$",
         r"\1 zeroinitializer",
         text,
         flags=re.M,

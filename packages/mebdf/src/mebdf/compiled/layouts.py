@@ -209,6 +209,9 @@ def of_hint(hint: Any, more: int = 0) -> Layout:
     said: tuple[Any, ...] = ()
     if typing.get_origin(hint) is Annotated:
         hint, *said = typing.get_args(hint)  # type: ignore[assignment]
+    # A type alias, which later versions of NumPy have.
+    while (value := getattr(typing.get_origin(hint) or hint, "__value__", None)) is not None:
+        hint = value[typing.get_args(hint)] if typing.get_args(hint) else value
     if typing.get_origin(hint) is np.ndarray and not isinstance(next(iter(said), 1), np.dtype):
         dtype = np.dtype(typing.get_args(typing.get_args(hint)[1])[0])
         return Array(dtype, (said[0] if said else 1) + more)
