@@ -165,7 +165,7 @@ def run_with(place: Path, folder: str, title: str, first: str, script: str) -> P
     package = copy_of_package(place) / "mechanism" / folder
     module = title.lower().replace(" ", "_")
     (package / f"{module}.py").write_text(of_manual(f'"""{title}'), encoding="utf-8")
-    insert(package / "__init__.py", first, f'    "{module}",\n')
+    insert(package / "__init__.py", f'"{first}"', f'"{module}", ')
     run(place, script)
     return package / f"{module}.py"
 
@@ -173,17 +173,17 @@ def run_with(place: Path, folder: str, title: str, first: str, script: str) -> P
 @pytest.mark.parametrize(("title", "check"), [("Belt", BELT), ("Stokes", STOKES)])
 def test_an_element_of_the_manual_takes_one_file_and_one_line(tmp_path: Path, title: str, check: str) -> None:
     script = RUN.format(method=title.lower(), check=check)
-    run_with(tmp_path, "elements", title, '    "gear",\n', script)
+    run_with(tmp_path, "elements", title, "gear", script)
     assert not failures(tmp_path, "tests/unit/mechanism/test_elements.py")
 
 
 def test_a_joint_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
-    run_with(tmp_path, "joints", "Ball on plane", '    "ideal",\n', JOINT)
+    run_with(tmp_path, "joints", "Ball on plane", "ideal", JOINT)
     assert not failures(tmp_path, OVER_JOINTS)
 
 
 def test_a_shape_of_a_clearance_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
-    added = run_with(tmp_path, "shapes", "Oval bore", '    "mesh",\n', SHAPE)
+    added = run_with(tmp_path, "shapes", "Oval bore", "mesh", SHAPE)
     assert not failures(tmp_path, OVER_JOINTS)
     insert(added, "barrel.gap + ", "1e3 * ")
     assert "oval-bore" in failures(tmp_path, OVER_JOINTS, "-k", "oval-bore")

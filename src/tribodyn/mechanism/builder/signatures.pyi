@@ -42,7 +42,11 @@ class Signatures:
         run: Table | None = ...,
         results: Table | None = ...,
     ) -> None: ...
-    def parameter(self, name: str, value: str) -> Self: ...
+    def parameter(
+        self,
+        name: str,
+        value: str,
+    ) -> Self: ...
     def body(
         self,
         name: str,
@@ -345,7 +349,13 @@ class Signatures:
         ideal: bool | None = ...,
         pressure_angle: str | None = ...,
     ) -> Self: ...
-    def rack(self, name: str, *, joints: Sequence[str], radius: str) -> Self: ...
+    def rack(
+        self,
+        name: str,
+        *,
+        joints: Sequence[str],
+        radius: str,
+    ) -> Self: ...
     def screw(
         self,
         name: str,
