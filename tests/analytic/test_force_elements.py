@@ -325,6 +325,8 @@ def test_backlash_is_an_error_against_the_gears_without_it(brake: float, tmp_pat
     result = td.simulate(drawn)
     expected = (0.05e-3 + 1.0 / 0.06 / 1e8) / 0.06 * brake
     assert result["output_error"].values[-1, 0] == pytest.approx(expected, rel=2e-3)
+    at_rest = td.simulate(drawn.case().replace({"run.analysis": "static", "run.positions": 4}))
+    assert at_rest["output_error"].values[-1, 0] == pytest.approx(expected, rel=1e-6)
     exact = td.simulate(drawn.case().replace({"gears.mesh.ideal": True}))
     assert float(np.abs(exact["output_error"]).max()) < 1e-9
     ideal = td.simulate(drawn.case().replace({"run.analysis": "kinematic"}))

@@ -13,6 +13,7 @@ from tribodyn.mechanism.builder import methods
 from tribodyn.mechanism.builder.arguments import signature_of_case
 
 STUB: Final = Path(methods.__file__).with_name("signatures.pyi")
+WIDTH: Final = 110
 HEAD: Final = '''"""Types of the builder's methods; ``make golden`` writes them from the keys of a case."""
 
 from collections.abc import Mapping, Sequence
@@ -28,15 +29,20 @@ class Signatures:
 
 
 def method(name: str, signature: inspect.Signature, returned: str) -> Iterator[str]:
-    """Yield the lines of a method."""
-    yield f"    def {name}("
-    keywords = False
+    """Yield the lines of a method, as the formatter breaks them."""
+    arguments, keywords = [], False
     for one in signature.parameters.values():
         if one.kind is one.KEYWORD_ONLY and not keywords:
             keywords = True
-            yield "        *,"
+            arguments.append("*")
         annotation = "" if one.annotation is one.empty else f": {one.annotation}"
-        yield f"        {one.name}{annotation}{'' if one.default is one.empty else ' = ...'},"
+        arguments.append(f"{one.name}{annotation}{'' if one.default is one.empty else ' = ...'}")
+    whole = ", ".join(arguments)
+    if len(line := f"    def {name}({whole}) -> {returned}: ...") <= WIDTH:
+        yield line
+        return
+    yield f"    def {name}("
+    yield from [f"        {whole}"] if len(whole) + 8 <= WIDTH else (f"        {one}," for one in arguments)
     yield f"    ) -> {returned}: ..."
 
 

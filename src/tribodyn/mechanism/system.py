@@ -19,6 +19,7 @@ from tribodyn.joints.clearances import Clearance, places
 from tribodyn.mechanism.analyses.analysis import NOTES, analysed
 from tribodyn.mechanism.analyses.ideal_motion import compared
 from tribodyn.mechanism.analyses.sampling import sampled
+from tribodyn.mechanism.analyses.statics import at_rest
 from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, without_friction
 from tribodyn.mechanism.assembly import mechanism_problem
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
@@ -89,7 +90,7 @@ class MechanismSystem:
 
     @cached_property
     def model(self) -> Model:
-        """The mechanism as drawn; kinematic analyses have ideal joints, vibrations no friction."""
+        """The mechanism as drawn; kinematic analyses have ideal joints, vibrations and rest no friction."""
         found = temperature_effects.from_time(model_of(self._modelled), self.begin)
         return found.counterpart if self._analysis == "kinematic" else found
 
@@ -97,7 +98,12 @@ class MechanismSystem:
     def _modelled(self) -> MechanismCase:
         if self._analysis == "kinematic":
             return self.case.without_play()
-        return without_friction(self.case) if self._analysis == "vibrations" else self.case
+        return without_friction(self.case) if self._rests or self._analysis == "vibrations" else self.case
+
+    @property
+    def _rests(self) -> bool:
+        """Whether a static analysis has no drive to lead the mechanism along."""
+        return self._analysis == "static" and not self.case.moves
 
     @property
     def _analysis(self) -> str:
@@ -328,7 +334,7 @@ class MechanismSystem:
                 cost={**run.cost, "restarts": run.cost["restarts"] - len(run.problem.breakpoints)},
             ),
             notes=[
-                *NOTES[self._analysis],
+                *NOTES["rest" if self._rests else self._analysis],
                 *run.solution.notes,
                 *(
                     of_slow_sliding(worn, self.maps.places, run.solution.t, found.couplings)
@@ -390,7 +396,8 @@ class MechanismSystem:
             turns = "angle" in self.case.joints[joint].kind.COORDINATES
             return coordinate(self.case, found.couplings, joint, "angles" if turns else "positions")
 
-        columns, notes = compared(self.assembly, self.outputs, path, motion, moved)
+        rest = partial(at_rest, self.assembly, path) if self._analysis == "static" else None
+        columns, notes = compared(self.assembly, self.outputs, path, motion, moved, rest)
         if self._analysis == "kinematic":
             columns |= kinematic_columns(self.assembly, self.outputs, path.times, found.couplings)
         return columns, notes

@@ -16,6 +16,10 @@ NOTES: Final[dict[str, tuple[str, ...]]] = {
         "static analysis: equilibria at positions along the drives; impacts, vibration and damping are left "
         "out",
     ),
+    "rest": (
+        "static analysis without a drive: bodies rest where loads and springs balance; friction, which could "
+        "hold them beside that position, is left out",
+    ),
     "kinematic": (
         "kinematic analysis: all joints are ideal, freedoms that drives leave are at rest, and forces are "
         "those that the motion needs",

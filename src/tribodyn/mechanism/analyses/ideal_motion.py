@@ -96,6 +96,7 @@ def compared(
     path: DrivePath,
     motion: Motion,
     moved: Callable[[str], FloatArray],
+    at_rest: Callable[[], FloatArray] | None,
 ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
     """Return the columns of outputs, each of shape (n_t, n_outputs), and notes.
 
@@ -111,8 +112,11 @@ def compared(
         Of the mechanism with clearance.
     moved
         Gives the angle or the position that a joint had in the run, shape (n_t,).
+    at_rest
+        Gives the states of the ideal mechanism where its forces balance, shape (n, 13 n_bodies); None where
+        the mechanism is not at rest.
     """
-    ideal, notes = _at_the_same_place(assembly, outputs, path, moved)
+    ideal, notes = _at_the_same_place(assembly, outputs, path, moved, at_rest)
     real = [output.components(motion) for output in outputs]
     pairs = list(zip(outputs, real, ideal, strict=True))
     return {
@@ -123,7 +127,11 @@ def compared(
 
 
 def _at_the_same_place(
-    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, moved: Callable[[str], FloatArray]
+    assembly: Assembly,
+    outputs: Sequence[Output],
+    path: DrivePath,
+    moved: Callable[[str], FloatArray],
+    at_rest: Callable[[], FloatArray] | None,
 ) -> tuple[list[FloatArray], list[str]]:
     """Return ideal outputs, those left free where joints are as they were in the run, and notes."""
     ideal = ideal_outputs(assembly, outputs, path)
@@ -137,6 +145,13 @@ def _at_the_same_place(
             name, places = outputs[numbers[k]].name, " and ".join(joints)
             notes.append(f"the error of output {name} is that at the same place of {places}")
         notes += anew.notes if settled else ()
+    if any(free) and at_rest is not None and not assembly.strain:
+        motion = motion_of(at_rest())
+        for number in np.flatnonzero(free).tolist():
+            found = outputs[number].components(motion)
+            components[number] = np.full((path.times.size, found.shape[1]), np.nan)
+            components[number][: len(found)], free[number] = found, False
+            notes.append(f"the error of output {outputs[number].name} is that against rest in ideal joints")
     left = [
         f"output {output.name} depends on a freedom that drives and ideal joints leave: it has no ideal "
         "value and no error"
@@ -177,6 +192,13 @@ def _following(assembly: Assembly, times: FloatArray, joints: Mapping[str, Float
 class IdealMechanism:
     """The ideal counterpart of a mechanism, which is led through given times.
 
+    Parameters
+    ----------
+    assembly
+        The mechanism.
+    play
+        Whether backlash of elements remains.
+
     Attributes
     ----------
     system
@@ -185,8 +207,9 @@ class IdealMechanism:
         Number of its independent constraints.
     """
 
-    def __init__(self, assembly: Assembly) -> None:
-        self.system = placed(System(assembly.model.counterpart.without_play), assembly)
+    def __init__(self, assembly: Assembly, *, play: bool = False) -> None:
+        counterpart = assembly.model.counterpart
+        self.system = placed(System(counterpart if play else counterpart.without_play), assembly)
         self.rank = self.system.independence()[0]
         self.system.set_rank(self.rank)
 

@@ -37,6 +37,11 @@ def require_motion(assembly: Assembly) -> None:
             "angle, a position, a speed or a velocity, or run the dynamic analysis"
         )
         raise InputError(words, key="drives")
+    require_closing(assembly)
+
+
+def require_closing(assembly: Assembly) -> None:
+    """Refuse a mechanism whose ideal joints cannot follow its drives."""
     if assembly.strain:
         raise InputError(assembly.strain, key="run.analysis")
 

@@ -9,7 +9,7 @@ the ideal motion, so positions that are passed in both directions have two equil
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -19,9 +19,9 @@ from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
-from tribodyn.mechanism.analyses.kinematics import require_motion
+from tribodyn.mechanism.analyses.kinematics import require_closing
 from tribodyn.mechanism.analyses.led_loads import LedLoads, developed
-from tribodyn.mechanism.analyses.linearised import LinearEquations, Linearised
+from tribodyn.mechanism.analyses.linearised import Linearised
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.output_values import rotations
@@ -44,9 +44,9 @@ def require_equilibria(assembly: Assembly) -> None:
     Raises
     ------
     InputError
-        No drive prescribes a motion, ideal joints cannot follow it, or an oil film carries a joint.
+        Ideal joints cannot follow the drives, or an oil film carries a joint.
     """
-    require_motion(assembly)
+    require_closing(assembly)
     require_no_film(assembly)
 
 
@@ -93,6 +93,83 @@ def find_equilibria(
     return replace(found, notes=(words,) if found.t.size else ())
 
 
+class Middle:
+    """Leads the mechanism of ideal joints, whose freedoms are at rest where forces balance.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism with its clearances; backlash of elements remains.
+    times
+        Of positions at which drives and loads are held [s], rising, shape (n_t,).
+
+    Attributes
+    ----------
+    linear
+        Its equations.
+    marks
+        Whole turns of its angles.
+    """
+
+    def __init__(self, assembly: Assembly, times: FloatArray) -> None:
+        self.linear = Linearised(assemble(assembly.model.counterpart), times)
+        self._leader = IdealMechanism(assembly, play=True)
+        self.marks = self.linear.system.now.couplings.angle_mark.copy()
+
+    def at(self, t: float, ideal: FloatArray, *, anew: bool, must: bool = False) -> FloatArray | None:
+        """Return the state at a time of the drives [s], shape (n_bodies, 13).
+
+        Parameters
+        ----------
+        t
+            Time [s].
+        ideal
+            The state as drives lead it, freedoms at rest, shape (n_bodies, 13).
+        anew
+            Whether to begin there instead of at the state before.
+        must
+            Whether there is no state where no rest is found; else it is the one from which it was searched.
+        """
+        system, centred = self._leader.system, self.linear.system
+        state = np.zeros(ideal.size)
+        if anew or not lead(system, t, lambda: closes(system)):
+            self._leader.put(t, ideal.ravel())
+        collect(system.now.bodies, state)
+        state.reshape(ideal.shape)[:, VELOCITY:] = 0.0
+        centred.take_positions(system)
+        balanced = self.linear.balanced(t, state)
+        if balanced is None and must:
+            return None
+        state = state if balanced is None else balanced
+        system.take_positions(centred)
+        self.marks = centred.now.couplings.angle_mark.copy()
+        return np.asarray(state.reshape(ideal.shape))
+
+
+def at_rest(assembly: Assembly, path: DrivePath) -> FloatArray:
+    """Return the states of the ideal mechanism without play at rest where forces balance.
+
+    Parameters
+    ----------
+    assembly
+        The mechanism.
+    path
+        Times of the positions, n_t of them.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (n, 13 n_bodies), n positions from the first on at which joints close.
+    """
+    without_play = replace(assembly, model=assembly.model.without_play)
+    times, where = np.unique(path.of_drives, return_inverse=True)
+    ideal = in_body_axes(IdealMechanism(without_play).follow(times))
+    middle, known = Middle(without_play, times), where[where < len(ideal)]
+    shape = (len(without_play.model.bodies), N_STATES)
+    states = [middle.at(times[k], ideal[k].reshape(shape), anew=n == 0) for n, k in enumerate(known)]
+    return np.array(states).reshape(known.size, -1)
+
+
 class Equilibria:
     """Finds the equilibrium at one position after the other, each from the one before.
 
@@ -102,7 +179,11 @@ class Equilibria:
         Slip velocity at which friction is developed [m/s].
     unbalance
         Largest load so far that does not balance, over all loads.
+    MUST_REST
+        Whether ideal joints must be at rest, too.
     """
+
+    MUST_REST: ClassVar[bool] = False
 
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
         times, self._where = np.unique(path.of_drives, return_inverse=True)
@@ -114,50 +195,40 @@ class Equilibria:
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank, self.slip = counterpart.independence()[0], _CREEP * _fastest(self._ideal, counterpart.size)
         self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
-        self.centred: Linearised | None = None
-        if rank < 6 * len(assembly.model.bodies):
-            self.centred = Linearised(assemble(assembly.model.counterpart), times)
-            self._leader = IdealMechanism(assembly)
-        self._middle = self._ideal[:1]
-        self._equations: LinearEquations | None = None
-        self._marks: FloatArray | None = None
+        self.middle = Middle(assembly, times) if rank < 6 * len(self._bodies) else None
 
     def __call__(self, number: int) -> FloatArray:
         """Return the equilibrium at a position, see :class:`~.positions.States`."""
         t, direction = float(self._path.of_drives[number]), float(self._path.forward[number])
-        self._middle = self._in_the_middle(number)
-        starts = [*(self._displaced(ways) for ways in self._expected()), self._middle]
+        ideal = self._in_the_middle(number)
+        equations = marks = None
+        if self.middle is not None:
+            equations, marks = self.middle.linear.at(t, ideal.ravel()), self.middle.marks
+        starts = [*(self._displaced(ideal, ways) for ways in self._expected()), ideal]
         for start in starts:
-            self._loads.at(t, start.ravel(), direction, self._equations, self._marks)
+            self._loads.at(t, start.ravel(), direction, equations, marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
                 self._require_balance(number)
-                self._remember()
+                self._remember(ideal)
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
                 return self._loads.state
         raise self._failure(number, f"no static equilibrium was found: {self._why_not()}")
 
     def _in_the_middle(self, number: int) -> FloatArray:
         """Return the state of the ideal counterpart, freedoms where forces balance, shape (n_bodies, 13)."""
-        found: FloatArray = self._ideal[self._require_reached(number)]
-        if self.centred is None:
-            return found
-        t, system = float(self._path.of_drives[number]), self._leader.system
-        state = np.zeros(found.size)
-        if number == 0 or not lead(system, t, lambda: closes(system)):
-            self._leader.put(t, found.ravel())
-        collect(system.now.bodies, state)
-        state.reshape(found.shape)[:, VELOCITY:] = 0.0
-        self.centred.system.take_positions(system)
-        state = self._at_rest(number, self.centred, state)
-        self._equations = self.centred.at(t, state)
-        system.take_positions(self.centred.system)
-        self._marks = self.centred.system.now.couplings.angle_mark.copy()
-        return np.asarray(state.reshape(found.shape))
+        ideal: FloatArray = self._ideal[self._require_reached(number)]
+        if self.middle is None:
+            return ideal
+        t = float(self._path.of_drives[number])
+        found = self.middle.at(t, ideal, anew=number == 0, must=self.MUST_REST)
+        if found is None:
+            raise self._no_rest(number)
+        return found
 
-    def _at_rest(self, number: int, mechanism: Linearised, state: FloatArray) -> FloatArray:
-        """Return the state at rest near by in which all forces balance; the same where there is none."""
-        found = mechanism.balanced(float(self._path.of_drives[number]), state)
-        return state if found is None else found
+    def _no_rest(self, number: int) -> IntegrationFailure:
+        """Return the failure to find rest at a position."""
+        self._loads.ideal.at(float(self._path.times[number]))
+        return self._failure(number, "no position at rest was found in which all forces balance")
 
     def _why_not(self) -> str:
         """Return why the last search ended without an equilibrium, in words."""
@@ -187,19 +258,19 @@ class Equilibria:
             return self._ways
         return [2.0 * self._ways[-1] - self._ways[-2], self._ways[-1]]
 
-    def _displaced(self, ways: FloatArray) -> FloatArray:
+    def _displaced(self, ideal: FloatArray, ways: FloatArray) -> FloatArray:
         """Return the ideal state, displaced, shape (n_bodies, 13)."""
         from scipy.spatial.transform import Rotation
 
-        found = self._middle.copy()
+        found = ideal.copy()
         found[:, :ORIENTATION] += ways[:, :3]
         turned = Rotation.from_rotvec(ways[:, 3:]) * rotations(found[:, ORIENTATION:VELOCITY])
         found[:, ORIENTATION:VELOCITY] = np.roll(turned.as_quat(), 1, axis=1)
         return np.asarray(found)
 
-    def _remember(self) -> None:
+    def _remember(self, ideal: FloatArray) -> None:
         """Keep the displacements from the ideal state, shape (n_bodies, 6), with those before."""
-        real, ideal = self._loads.state.reshape(-1, N_STATES), self._middle
+        real = self._loads.state.reshape(-1, N_STATES)
         after, before = (rotations(state[:, ORIENTATION:VELOCITY]) for state in (real, ideal))
         ways = real[:, :ORIENTATION] - ideal[:, :ORIENTATION]
         self._ways = [*self._ways[-1:], np.hstack([ways, (after * before.inv()).as_rotvec()])]

@@ -99,6 +99,8 @@ def find_rest(
 class _Resting(Equilibria):
     """Finds the position at rest for one time after the other."""
 
+    MUST_REST = True
+
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
         super().__init__(assembly, path)
         self._loads.hold(path.times)
@@ -108,17 +110,13 @@ class _Resting(Equilibria):
         """Return the state at a time, see :class:`~.positions.States`."""
         if self._real is None:
             return np.asarray(self._in_the_middle(number).ravel())
-        return self._at_rest(number, self._real, super().__call__(number))
+        found = self._real.balanced(float(self._path.times[number]), super().__call__(number))
+        if found is None:
+            raise self._no_rest(number)
+        return found
 
     def _require_balance(self, number: int) -> None:
         """Leave it to the search for rest, in which all freedoms take part."""
-
-    def _at_rest(self, number: int, mechanism: Linearised, state: FloatArray) -> FloatArray:
-        found = mechanism.balanced(float(self._path.times[number]), state)
-        if found is None:
-            self._loads.ideal.at(float(self._path.times[number]))
-            raise self._failure(number, "no position at rest was found in which all forces balance")
-        return found
 
 
 @dataclass(frozen=True)

@@ -42,11 +42,7 @@ class Signatures:
         run: Table | None = ...,
         results: Table | None = ...,
     ) -> None: ...
-    def parameter(
-        self,
-        name: str,
-        value: str,
-    ) -> Self: ...
+    def parameter(self, name: str, value: str) -> Self: ...
     def body(
         self,
         name: str,
@@ -349,13 +345,7 @@ class Signatures:
         ideal: bool | None = ...,
         pressure_angle: str | None = ...,
     ) -> Self: ...
-    def rack(
-        self,
-        name: str,
-        *,
-        joints: Sequence[str],
-        radius: str,
-    ) -> Self: ...
+    def rack(self, name: str, *, joints: Sequence[str], radius: str) -> Self: ...
     def screw(
         self,
         name: str,
@@ -365,6 +355,11 @@ class Signatures:
         friction_coefficient: float | str | None = ...,
         radius: str | None = ...,
         slip_velocity: str | None = ...,
+        backlash: str | None = ...,
+        stiffness: str | None = ...,
+        damping_factor: str | None = ...,
+        restitution: float | str | None = ...,
+        ideal: bool | None = ...,
     ) -> Self: ...
     def distance(
         self,

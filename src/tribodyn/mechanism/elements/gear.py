@@ -27,7 +27,7 @@ from tribodyn.cases.fields import choice, names, number, quantity, switch
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanism.elements import element as base
-from tribodyn.mechanism.elements.stop import LEAST_RATE, RESTITUTION, damping_of, one_sided
+from tribodyn.mechanism.elements.stop import RESTITUTION, flank_law
 
 PRESSURE_ANGLE = math.radians(20.0)
 """Of teeth with backlash, where a case does not say it [rad]."""
@@ -121,17 +121,7 @@ torque = "0.2 N m"
         demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")
         words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
         demand(self._pitch(joints) is not None, "backlash", words)
-        law = base.ForceLaw(
-            one_sided,
-            {
-                "at": 0.5 * self.backlash,
-                "side": 1.0,
-                "exponent": 1.0,
-                "scale": self.mesh_stiffness or 0.0,
-                "damping": damping_of(self.damping_factor, self.restitution),
-                "least_rate": LEAST_RATE,
-            },
-        )
+        law = flank_law(self.backlash, self.mesh_stiffness or 0.0, self.damping_factor, self.restitution)
         return tuple(base.Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
 
     def _pushing(self, joints: base.Joints) -> tuple[base.Leg, ...]:

@@ -11,7 +11,7 @@ on the coordinate
     s = r θ cos φ + z·d sin φ,
 
 by the law of ``joint_friction`` with the load N. A nut that lifts a weight W takes the torque of textbooks,
-W r tan(φ + ρ) with tan ρ = μ.
+W r tan(φ + ρ) with tan ρ = μ. With backlash the nut touches one flank or the other, each an elastic contact.
 """
 
 import math
@@ -22,10 +22,11 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import names, number, quantity
+from tribodyn.cases.fields import choice, names, number, quantity, switch
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.elements import element as base
 from tribodyn.mechanism.elements.joint_friction import friction_law
+from tribodyn.mechanism.elements.stop import RESTITUTION, flank_law
 
 
 class Screw(base.ElementKeys):
@@ -78,6 +79,32 @@ torque = "0.2 N m"
         None, "mean radius of the thread, at which it slides; needed with friction", "", gt=0, example="8 mm"
     )
     slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
+    backlash: float | None = quantity(
+        None, "play of the nut along the axis; none without it", "", ge=0, example="50 um"
+    )
+    stiffness: float | None = quantity(
+        None, "axial force over indentation, of a thread with backlash", "", gt=0, example="100 N/um"
+    )
+    damping_factor: str = choice(
+        "calibrated",
+        "how damping of a thread with backlash follows from restitution",
+        "assumed",
+        family="tribodyn.contact:DAMPING_FACTORS",
+    )
+    restitution: float = number(
+        RESTITUTION, "coefficient of restitution of a thread with backlash", "manual, elements", gt=0, le=1
+    )
+    ideal: bool = switch(False, "treat the thread as without backlash", "assumed")
+
+    @property
+    def has_play(self) -> bool:
+        """Whether its thread has backlash."""
+        return self.backlash is not None and not self.ideal
+
+    @property
+    def without_play(self) -> Self:
+        """The screw without backlash."""
+        return self.model_copy(update={"backlash": None})
 
     @property
     def without_friction(self) -> Self:
@@ -85,8 +112,21 @@ torque = "0.2 N m"
         return self.model_copy(update={"friction_coefficient": 0.0})
 
     def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
-        """Return the constraint, and the force of friction where there is some."""
+        """Return the constraint with the force of friction, if any; with backlash a contact for each flank.
+
+        Legs of both flanks have opposite signs, so that each contact pushes.
+        """
         (thread,) = self.legs(joints)
+        if self.backlash is not None and not self.ideal:
+            demand(self.stiffness is not None, "stiffness", "a thread with backlash needs its stiffness")
+            words = (
+                "the friction of a thread with backlash is not computed; leave one of them out, or give the "
+                "friction of its joint with a normal_load, in [frictions]"
+            )
+            demand(self.friction_coefficient == 0.0, "friction_coefficient", words)
+            law = flank_law(self.backlash, self.stiffness or 0.0, self.damping_factor, self.restitution)
+            other = replace(thread, along=-thread.along, about=-thread.about, reported=thread.along)
+            return tuple(base.Equation((flank,), law) for flank in (thread, other))
         if self.friction_coefficient == 0.0:
             return (base.Equation((thread,), None),)
         if self.radius is None:
