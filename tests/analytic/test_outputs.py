@@ -1,5 +1,7 @@
 """Outputs of a mechanism, and their error against the motion with ideal joints."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -153,6 +155,24 @@ def test_the_error_is_that_at_the_same_place_of_a_joint(push: str, output: dict[
     error = np.abs(column(run, "output_error")[:, 0]).max()
     assert 5e-6 < error < 25e-6  # the pin goes through its clearance of 20 um, and a little into the bore
     assert "the error of output way is that at the same place of main" in run.attrs["notes"]
+
+
+def test_a_stiff_motor_gives_the_life_by_error_of_a_drive_at_its_speed(tmp_path: Path) -> None:
+    def turning() -> td.Mechanism:
+        return (
+            linkage("1e-3, 1e-3, 1e-3 kg m^2", duration="100 ms")
+            .clearance("wrist", radial="20 um", radius="10 mm", length="20 mm")
+            .load("push", "slider", direction=[-1, 0, 0], force="200 N")
+            .output("way", "slider", along=[1, 0, 0], error_limit="50 um")
+        )
+
+    driven = turning().drive("motor", "main", speed="600 rpm")
+    moved = turning().motor("motor", joint="main", stall_torque="2000 N m", no_load_speed="600 rpm")
+    started = moved.case().replace({"joints.main.start_speed": "600 rpm"})
+    life, same = (summarise(td.simulate(drawn))["error_life_cycles_way"] for drawn in (driven, started))
+    assert same == pytest.approx(life, rel=0.01)
+    [shares] = td.studies.contributions(started, directory=tmp_path, workers=0)
+    assert shares.shares == pytest.approx([1.0], abs=1e-9)
 
 
 def test_an_output_at_a_dead_centre_depends_on_the_freedom_that_is_left() -> None:

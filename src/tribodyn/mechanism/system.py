@@ -17,7 +17,7 @@ from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
 from tribodyn.mechanism.analyses.analysis import NOTES, analysed
-from tribodyn.mechanism.analyses.ideal_motion import compared
+from tribodyn.mechanism.analyses.ideal_motion import compared, led_along
 from tribodyn.mechanism.analyses.sampling import sampled
 from tribodyn.mechanism.analyses.statics import at_rest
 from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, without_friction
@@ -248,7 +248,11 @@ class MechanismSystem:
         film = self._playback(run)
         times = run.solution.picture_times[film]
         pressure = np.asarray(run.solution.pictures[film, : self.maps.n_nodes], dtype=np.float64)
-        growth = error_growth(self.assembly, self.outputs, self.maps.places, times, pressure, depth)
+        growth = np.full((times.size, len(self.outputs)), np.nan)
+        path, moved = DrivePath(run.solution.t, self.case.turn), partial(self._moved, self._observed(run))
+        for _, found, numbers in led_along(self.assembly, self.outputs, path, moved):
+            outputs = [self.outputs[number] for number in numbers]
+            growth[:, numbers] = error_growth(found, outputs, self.maps.places, times, pressure, depth)
         columns, _ = self._of_outputs(self._observed(run), run)
         error = np.stack([np.interp(times, run.solution.t, one) for one in columns["output_error"].T], axis=1)
         return dict(zip(self.case.outputs, lives(error, growth, limits).tolist(), strict=True))
@@ -391,16 +395,18 @@ class MechanismSystem:
             return {}, ()
         motion = Motion(**{name: found.bodies[name] for name in MOTION})
         path = DrivePath(run.solution.t, self.case.turn)
-
-        def moved(joint: str) -> FloatArray:
-            turns = "angle" in self.case.joints[joint].kind.COORDINATES
-            return coordinate(self.case, found.couplings, joint, "angles" if turns else "positions")
-
         rest = partial(at_rest, self.assembly, path) if self._analysis == "static" else None
-        columns, notes = compared(self.assembly, self.outputs, path, motion, moved, rest)
+        columns, notes = compared(
+            self.assembly, self.outputs, path, motion, partial(self._moved, found), rest
+        )
         if self._analysis == "kinematic":
             columns |= kinematic_columns(self.assembly, self.outputs, path.times, found.couplings)
         return columns, notes
+
+    def _moved(self, found: Observed, joint: str) -> FloatArray:
+        """Return the angle or the position that a joint had in the run, shape (n_t,)."""
+        turns = "angle" in self.case.joints[joint].kind.COORDINATES
+        return coordinate(self.case, found.couplings, joint, "angles" if turns else "positions")
 
     def _errors(
         self, columns: dict[str, FloatArray], found: Observed, run: FinishedRun

@@ -7,7 +7,7 @@ free, too, there is no ideal value that it could be compared with.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -46,14 +46,11 @@ class IdealOutputs:
         Why all have no ideal value, or from when on, in words.
     free
         Whether an output depends on a freedom that drives leave.
-    freedoms
-        Number of such freedoms.
     """
 
     components: tuple[FloatArray, ...]
     notes: tuple[str, ...]
     free: tuple[bool, ...]
-    freedoms: int
 
 
 def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath) -> IdealOutputs:
@@ -72,7 +69,7 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath
     unknown = np.full((n_t, 1), np.nan)
     if assembly.strain:
         reason = "ideal joints cannot follow the drives, so outputs have no ideal value and no error"
-        return IdealOutputs((unknown,) * len(outputs), (reason,), (False,) * len(outputs), 0)
+        return IdealOutputs((unknown,) * len(outputs), (reason,), (False,) * len(outputs))
     times, where = np.unique(path.of_drives, return_inverse=True)
     mechanism = IdealMechanism(assembly)
     states = mechanism.follow(times)
@@ -87,7 +84,7 @@ def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath
             whole[known] = components
         found.append(whole)
     notes = () if known.all() else (unreached(times, states),)
-    return IdealOutputs(tuple(found), notes, tuple(free), mechanism.freedoms)
+    return IdealOutputs(tuple(found), notes, tuple(free))
 
 
 def compared(
@@ -136,8 +133,9 @@ def _at_the_same_place(
     """Return ideal outputs, those left free where joints are as they were in the run, and notes."""
     ideal = ideal_outputs(assembly, outputs, path)
     components, free, notes = list(ideal.components), list(ideal.free), list(ideal.notes)
-    for joints, numbers in _followed(assembly, outputs, path, ideal.freedoms).items():
-        led = _following(assembly, path.times, {joint: moved(joint) for joint in joints})
+    for joints, led, numbers in led_along(assembly, outputs, path, moved):
+        if not joints:
+            continue
         anew = ideal_outputs(led, [outputs[number] for number in numbers], path)
         settled = [k for k, is_free in enumerate(anew.free) if not is_free]
         for k in settled:
@@ -161,22 +159,27 @@ def _at_the_same_place(
     return components, left + notes
 
 
-def _followed(
-    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, freedoms: int
-) -> dict[tuple[str, ...], list[int]]:
-    """Return the numbers of outputs by the joints whose motion in the run the ideal mechanism has, too."""
+def led_along(
+    assembly: Assembly, outputs: Sequence[Output], path: DrivePath, moved: Callable[[str], FloatArray]
+) -> Iterator[tuple[tuple[str, ...], Assembly, list[int]]]:
+    """Yield joints, a mechanism in which they are driven as they moved, and the numbers of its outputs.
+
+    Outputs that follow the drives alone come with no joint.
+    """
+    follows = not assembly.strain and math.isinf(path.turn) and path.times.size > 1
+    pushed = tuple(assembly.model.case.pushed) if follows and IdealMechanism(assembly).freedoms else ()
     found: dict[tuple[str, ...], list[int]] = {}
-    if assembly.strain or not math.isinf(path.turn) or path.times.size < 2:
-        return found
-    pushed = tuple(assembly.model.case.pushed) if freedoms else ()
     for number, output in enumerate(outputs):
-        if joints := (output.keys.follows,) if output.keys.follows else pushed:
-            found.setdefault(joints, []).append(number)
-    return found
+        joints = (output.keys.follows,) if follows and output.keys.follows else pushed
+        found.setdefault(joints, []).append(number)
+    for joints, numbers in found.items():
+        yield joints, _driven_as(assembly, path.times, {joint: moved(joint) for joint in joints}), numbers
 
 
-def _following(assembly: Assembly, times: FloatArray, joints: Mapping[str, FloatArray]) -> Assembly:
+def _driven_as(assembly: Assembly, times: FloatArray, joints: Mapping[str, FloatArray]) -> Assembly:
     """Return a mechanism in which joints are driven as they moved."""
+    if not joints:
+        return assembly
     case = assembly.model.case
     drives = {name: drive for name, drive in case.drives.items() if drive.joint not in joints}
     at, first = np.unique(times, return_index=True)
