@@ -121,7 +121,8 @@ class Accessor:
 class Plots:
     """The figures of a result as methods, each of which returns a :class:`matplotlib.figure.Figure`.
 
-    Of a mechanism whose joints have names, ``joint="wrist"`` draws that joint alone.
+    Of a mechanism whose joints have names, ``joint="wrist"`` draws that joint alone, and ``over="main"``
+    draws a chart over the angle of that joint instead of over time. ``plot()`` returns the first chart.
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
@@ -138,6 +139,12 @@ class Plots:
         orbit = next((families[name] for name in _ORBITS if name in families), None)
         return families | ({} if orbit is None else {ORBIT: orbit})
 
+    def __call__(self, *, over: str | None = None) -> Figure:
+        """Return the first of the charts that a result has: errors of outputs, forces, motion."""
+        families = self._families()
+        charted = [one for one in families.values() if one.over is not None]
+        return _drawn((charted or [*families.values()])[0], self._dataset, over=over)
+
     def __getattr__(self, name: str) -> Callable[..., Figure]:
         """Return the drawing function of this name."""
         if name.startswith("_"):
@@ -153,10 +160,17 @@ class Plots:
         return sorted(self._families())
 
 
-def _drawn(family: Family, dataset: xr.Dataset, *, joint: str | None = None) -> Figure:
+def _drawn(
+    family: Family, dataset: xr.Dataset, *, joint: str | None = None, over: str | None = None
+) -> Figure:
     if "IPython" in sys.modules:
         _show_pictures()
-    return family.draw(dataset if joint is None else _with_joint(dataset, family, joint))
+    chosen = dataset if joint is None else _with_joint(dataset, family, joint)
+    if over is None:
+        return family.draw(chosen)
+    if family.over is None:
+        raise InputError(f"{as_given(over)}; allowed: none, {family.name} has no time axis", key="over")
+    return family.over(chosen, over)
 
 
 def _with_joint(dataset: xr.Dataset, family: Family, joint: str) -> xr.Dataset:

@@ -1,5 +1,6 @@
 """A chart over time as a figure, its reversals marked and kept from flattening what lies between."""
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Final
 
@@ -13,9 +14,10 @@ from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import GREY, SMALL
 from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
-from tribodyn.views.events import impact_time, reversal_times, smooth_limits
+from tribodyn.views.coordinates import angle_of
+from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.playback import time_unit
-from tribodyn.views.series import peak, series
+from tribodyn.views.series import series
 
 COLOURS: Final = {
     "ink": style.INK,
@@ -36,8 +38,6 @@ DASHES: Final[dict[str, style.LineStyle]] = {
 }
 _PANEL: Final = 1.55
 """Height of a panel [in]."""
-_ONE_ROW: Final = 3
-"""Entries of a legend that stand in one row above their panel."""
 
 
 def family(chart: Chart) -> Family:
@@ -48,32 +48,33 @@ def family(chart: Chart) -> Family:
         caption=chart.caption,
         needs=chart.needs,
         draw=partial(draw, chart),
+        shows=lambda dataset: bool(chart.drawn(dataset)),
+        over=partial(draw, chart),
     )
 
 
-def draw(chart: Chart, dataset: xr.Dataset) -> Figure:
-    """Draw the panels of a chart above each other over the simulated time."""
-    panels = chart.panels(dataset)
+def draw(chart: Chart, dataset: xr.Dataset, over: str = "") -> Figure:
+    """Draw the panels of a chart above each other over the simulated time, or over the angle of a joint."""
+    panels = chart.drawn(dataset)
     figure = style.sheet(dataset, chart.title, 1.1 + _PANEL * max(len(panels), 2))
+    if not panels:
+        style.note(figure.subplots(), "nothing varies over time")
+        return figure
     unit, scale = time_unit(dataset)
     time, turns = series(dataset, "time", scale), scale * reversal_times(dataset)
+    label, place = angle_of(dataset, over) if over else (f"time [{unit}]", time)
     every = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for axes, panel in zip(every, panels, strict=True):
-        _draw_panel(axes, panel, time)
+        _draw_panel(axes, panel, place)
+        cut_off(axes, *panel.ordinate(time / scale, turns / scale, impact_time(dataset)))
+        if over:
+            continue
         if panel.marks is not None:
             _draw_marks(axes, panel.marks, scale)
-        if panel.smooth and time.size:
-            limit_to_smooth(
-                axes, time / scale, _values(panel), turns / scale, impact_time(dataset), panel.unit
-            )
         mark_reversals(axes, turns, label=axes is every[-1] and not panel.smooth)
-    every[-1].set_xlabel(f"time [{unit}]", size=style.TEXT)
+    every[-1].set_xlabel(label, size=style.TEXT)
     figure.align_ylabels()
     return figure
-
-
-def _values(panel: Panel) -> FloatArray:
-    return np.array([curve.values for curve in panel.curves])
 
 
 def _draw_panel(axes: Axes, panel: Panel, time: FloatArray) -> None:
@@ -82,7 +83,7 @@ def _draw_panel(axes: Axes, panel: Panel, time: FloatArray) -> None:
     if panel.level is not None:
         axes.axhline(panel.level, color=style.GREY, linewidth=0.8, dashes=(2, 2), zorder=1)
     if len(panel.curves) > 1:
-        style.legend(axes, min(len(panel.curves), _ONE_ROW))
+        style.legend_beside(axes)
     style.finish(axes, y_label=panel.label)
 
 
@@ -117,28 +118,8 @@ def mark_reversals(axes: Axes, times: FloatArray, label: bool = False) -> None:
         )
 
 
-def limit_to_smooth(
-    axes: Axes, time: FloatArray, values: FloatArray, turns: FloatArray, impact_time: float, unit: str
-) -> None:
-    """Scale the y axis to the smooth motion where impacts would flatten it, and say what lies outside.
-
-    Parameters
-    ----------
-    axes
-        Axes to scale; an axis that begins at zero stays so.
-    time
-        Times [s], shape (n_t,).
-    values
-        What is drawn, shape (..., n_t).
-    turns, impact_time
-        Reversal times, and how long impacts last after them [s].
-    unit
-        Unit of the values.
-    """
-    limits = smooth_limits(time, values, turns, impact_time)
-    if not limits:
-        return
-    axes.set_ylim(*limits)
-    loud = peak(values)
-    text = f"cut off: impacts reach {loud:.3g} {unit}"
-    axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
+def cut_off(axes: Axes, limits: Sequence[float], note: str) -> None:
+    """Give axes an ordinate that impacts or the first sample do not set, and say what lies outside."""
+    if limits:
+        axes.set_ylim(*limits)
+        axes.text(1.0, 1.02, note, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)

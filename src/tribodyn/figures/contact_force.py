@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.chart import limit_to_smooth, mark_reversals
+from tribodyn.figures.chart import cut_off, mark_reversals
 from tribodyn.figures.figure_family import Family
+from tribodyn.views.charts import ChartCurve, Panel
 from tribodyn.views.events import impact_time, reversal_times
 from tribodyn.views.series import finite, peak, series
 
@@ -27,7 +28,8 @@ def draw(dataset: xr.Dataset) -> Figure:
     for (whole, close), axis in zip(grid, "xy", strict=True):
         curves = _curves(dataset, axis)
         _draw_curves(whole, time, curves)
-        limit_to_smooth(whole, time, np.array([curve[0] for curve in curves]), turns, settling, "N")
+        panel = Panel("force [N]", [ChartCurve(name, values) for values, name, *_ in curves], smooth=True)
+        cut_off(whole, *panel.ordinate(time, turns, settling))
         mark_reversals(whole, turns)
         _shade(whole, time, start, end)
         _draw_close_up(close, time, curves, start, end)

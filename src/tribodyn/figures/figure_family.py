@@ -31,6 +31,10 @@ class Family:
         Names of the variables without which it is not drawn.
     draw
         Draws it. A result may be short, empty or hold NaN: what is there is drawn, and a note names the rest.
+    shows
+        Whether a result that holds them has something to show.
+    over
+        Draws it over the angle of a joint; None where it has no time axis.
     """
 
     name: str
@@ -38,10 +42,12 @@ class Family:
     caption: str
     needs: tuple[str, ...]
     draw: Callable[[xr.Dataset], Figure]
+    shows: Callable[[xr.Dataset], bool] = lambda dataset: True
+    over: Callable[[xr.Dataset, str], Figure] | None = None
 
     def drawable(self, dataset: xr.Dataset) -> bool:
-        """Whether the result holds the variables this figure needs."""
-        return all(name in dataset.variables for name in self.needs)
+        """Whether the result holds the variables this figure needs, and something to show in them."""
+        return all(name in dataset.variables for name in self.needs) and self.shows(dataset)
 
 
 class MovingFigure(Protocol):

@@ -9,6 +9,7 @@ from typing import Any, Final, Literal, TypeAlias
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
@@ -127,6 +128,21 @@ def legend(axes: Axes, columns: int, **options: Any) -> Legend:
         borderaxespad=0.1,
         **options,
     )
+
+
+def legend_beside(axes: Axes) -> Legend:
+    """Put a frameless legend beside axes, on the right."""
+    return axes.legend(
+        loc="upper left", bbox_to_anchor=(1.0, 1.05), frameon=False, fontsize=SMALL, borderaxespad=0.2
+    )
+
+
+def colour_bar(figure: Figure, mesh: ScalarMappable, axes: Axes, label: str) -> None:
+    """Put the scale of colours beside axes."""
+    bar = figure.colorbar(mesh, ax=axes, shrink=0.9, aspect=26, pad=0.02)
+    bar.set_label(label, size=TEXT)
+    bar.ax.tick_params(labelsize=SMALL)
+    bar.outline.set_visible(False)
 
 
 def note(axes: Axes, text: str) -> None:

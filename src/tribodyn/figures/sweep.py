@@ -237,10 +237,7 @@ def _map(dataset: xr.Dataset, name: str) -> Figure:
     style.finish(axes, _label(across), _label(down))
     axes.grid(False)
     _cell_ticks(axes, across, down)
-    bar = figure.colorbar(mesh, ax=axes, shrink=0.9, aspect=26, pad=0.02)
-    bar.set_label(_value_label(values), size=style.TEXT)
-    bar.ax.tick_params(labelsize=style.SMALL)
-    bar.outline.set_visible(False)
+    style.colour_bar(figure, mesh, axes, _value_label(values))
     return figure
 
 

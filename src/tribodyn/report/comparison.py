@@ -70,6 +70,9 @@ _OF_RUN: Final = re.compile(r"(^|_)(wear|life|heat)(_|$)")
 """Names of such numbers in other groups, as those of joints."""
 _ALIKE: Final = 2.0
 """Ratio of the cycles of two runs from which on it is named."""
+OF_FORCE: Final = ("Load", "Joints")
+"""Groups of key results that the error of the grid is of."""
+NO_DIFFERENCE: Final = "no difference"
 NOTABLE: Final = 0.01
 """Relative difference from the first run above which a number stands out."""
 
@@ -120,7 +123,8 @@ def differences(results: Sequence[xr.Dataset]) -> RunDifferences:
     """Return the differences between results, like beside like."""
     summaries, stretch = _compared(results)
     stretch = " ".join(filter(None, (stretch or _of_lengths(summaries), _of_whole_runs(summaries))))
-    return RunDifferences(_different_keys(results), _numbers(summaries), stretch, summaries)
+    grid = max(float(result.attrs.get("grid_force_error", 0.0)) for result in results)
+    return RunDifferences(_different_keys(results), _numbers(summaries, grid), stretch, summaries)
 
 
 def write_comparison(runs: Sequence[ComparedRun], target: str | Path) -> Path:
@@ -220,18 +224,20 @@ def _about(run: ComparedRun, summary: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _numbers(summaries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def _numbers(summaries: Sequence[Mapping[str, Any]], grid: float) -> list[dict[str, Any]]:
     """Return, in groups, every key result that any run has, with the difference from the first run."""
     names = {name: None for summary in summaries for name in summary}
     kinds = {str(summary["kind"]) for summary in summaries}
     kind = kinds.pop() if len(kinds) == 1 else ""
-    rows = [_row(name, key_result, summaries) for name, key_result in known(names, kind).items()]
+    rows = [_row(name, key_result, summaries, grid) for name, key_result in known(names, kind).items()]
     return [
         {"name": name, "rows": list(members)} for name, members in groupby(rows, lambda row: row["group"])
     ]
 
 
-def _row(name: str, key_result: KeyResult, summaries: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+def _row(
+    name: str, key_result: KeyResult, summaries: Sequence[Mapping[str, Any]], grid: float
+) -> dict[str, Any]:
     values = [summary.get(name) for summary in summaries]
     unit, factor = fitting(key_result.unit, values)
     shown = [value * factor if isinstance(value, float) else value for value in values]
@@ -240,7 +246,7 @@ def _row(name: str, key_result: KeyResult, summaries: Sequence[Mapping[str, Any]
         "unit": unit,
         "group": key_result.group,
         "cells": [
-            {**_cell(value, shown[0], key_result), "doubtful": bool(summary["doubtful"])}
+            {**_cell(value, shown[0], key_result, grid), "doubtful": bool(summary["doubtful"])}
             for value, summary in zip(shown, summaries, strict=True)
         ],
     }
@@ -252,14 +258,21 @@ def _label(key_result: KeyResult, summaries: Sequence[Mapping[str, Any]]) -> str
     return labels.pop() if len(labels) == 1 else key_result.label
 
 
-def _cell(value: Any, first: Any, key_result: KeyResult) -> dict[str, Any]:
-    """Return a number, and in percent how far it is from that of the first run."""
+def _cell(value: Any, first: Any, key_result: KeyResult, grid: float) -> dict[str, Any]:
+    """Return a number, and in percent how far it is from that of the first run.
+
+    What is less than the digits that hold, or of forces than the error of the grid, is no difference.
+    """
     if value is None:
         return {"value": "—", "change": "", "notable": False}
     words = in_words(value, key_result.digits)
     if first is None or not first or value == first:
         return {"value": words, "change": "", "notable": False}
     share = (value - first) / abs(first)
+    if abs(share) <= max(
+        0.5 * 10.0 ** (1 - key_result.digits), grid if key_result.group in OF_FORCE else 0.0
+    ):
+        return {"value": words, "change": NO_DIFFERENCE, "notable": False}
     way = "+" if share > 0.0 else ""
     change = (
         f"{way}{in_words(100.0 * share, 2)} %" if abs(share) < 10.0 else f"× {in_words(value / first, 2)}"

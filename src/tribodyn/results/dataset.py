@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tribodyn.results.outputs import in_output_unit
 from tribodyn.results.variables import VARIABLES, Variable
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def build(
         Each variable with ``units`` and ``long_name``.
     """
     data = {**columns, **(fields or {})}
-    known = {**VARIABLES, **variables}
+    known = in_output_unit({**VARIABLES, **variables}, coordinates.get("output_unit", ()))
     return assembled(
         {name: _variable(name, values, known) for name, values in data.items()},
         {name: _variable(name, values, known) for name, values in coordinates.items()},

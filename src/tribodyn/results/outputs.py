@@ -1,7 +1,11 @@
 """Variables of the outputs of a mechanism in results, and the units in which their errors are shown."""
 
 import math
-from typing import Final, NamedTuple
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
+
+import numpy as np
 
 from tribodyn.core.quantities import TIME
 from tribodyn.results.variables import JUMP, Variable
@@ -63,3 +67,21 @@ OUTPUTS_OF_CYCLE: Final = {
     )
 }
 """Numbers of each cycle that a wear campaign keeps."""
+
+_IN_THEIR_UNIT: Final = (
+    "output_value",
+    "output_ideal",
+    "output_error",
+    "output_error_limit",
+    "error_at",
+    "error_at_forward",
+    "error_at_backward",
+)
+
+
+def in_output_unit(known: Mapping[str, Variable], units: Any) -> dict[str, Variable]:
+    """Return what is known of variables, those in units of outputs with theirs, where all outputs share one."""
+    shared = sorted({str(unit) for unit in np.asarray(units).ravel()})
+    if len(shared) != 1:
+        return {**known}
+    return {**known, **{n: replace(known[n], units=shared[0]) for n in _IN_THEIR_UNIT if n in known}}

@@ -27,6 +27,7 @@ from tribodyn.results.attributes import (
     TEXTS,
     VARIABLE_ATTRIBUTES,
 )
+from tribodyn.results.outputs import in_output_unit
 from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, REVERSAL, VARIABLES, Variable
 
 if TYPE_CHECKING:
@@ -166,13 +167,14 @@ def _check_run(dataset: xr.Dataset, known: Mapping[str, Variable]) -> None:
     """Compare the variables of a run with what is known of them."""
     if "time" not in dataset.variables:
         raise ValueError("it lacks the variable time")
+    in_units = in_output_unit(known, dataset["output_unit"].values if "output_unit" in dataset else ())
     for name, variable in dataset.variables.items():
         about = known.get(str(name))
         if about is None:
             raise ValueError(f"no result has a variable {brief(name)}")
         if variable.dims != about.dims:
             raise ValueError(f"{name} runs over {brief(variable.dims)}, not over {about.dims}")
-        if variable.attrs.get("units") != about.units:
+        if variable.attrs.get("units") not in (about.units, in_units[str(name)].units):
             raise ValueError(f"the unit of {name} is not {about.units}")
         _check_values(str(name), variable, text=about.named, form=_form_of(str(name), about))
     _check_coordinates(dataset, {name for name, about in known.items() if about.named})

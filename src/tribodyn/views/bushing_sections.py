@@ -28,7 +28,7 @@ def _force(dataset: xr.Dataset, axis: str) -> Panel:
         ChartCurve("damping part", series(dataset, f"F_d{axis}"), "vermilion", "dash"),
         ChartCurve("friction", series(dataset, f"F_f{axis}"), "green", "dot"),
     )
-    return Panel(f"along {axis.upper()} [N]", curves, smooth=True, unit="N")
+    return Panel(f"along {axis.upper()} [N]", curves, smooth=True)
 
 
 CONTACT_FORCE: Final = Chart(
@@ -49,10 +49,7 @@ def _tilts(dataset: xr.Dataset) -> list[Panel]:
         Panel("tilt [mrad]", _pair(dataset, "phi", 1e3)),
         Panel("offset [µm]", _pair(dataset, "e", 1e6)),
         Panel(
-            "peak pressure [MPa]",
-            [ChartCurve("peak pressure", series(dataset, "p_max", 1e-6))],
-            smooth=True,
-            unit="MPa",
+            "peak pressure [MPa]", [ChartCurve("peak pressure", series(dataset, "p_max", 1e-6))], smooth=True
         ),
     ]
 

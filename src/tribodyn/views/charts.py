@@ -6,16 +6,19 @@ draws.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.views.coordinates import coordinates
 from tribodyn.views.encode import stepped
 from tribodyn.views.events import impact_time, impact_windows, reversal_times, smooth_limits
+from tribodyn.views.numbers import fitting
 from tribodyn.views.playback import time_unit
 from tribodyn.views.section import Payload, Section
 from tribodyn.views.series import finite, peak, series
@@ -167,13 +170,11 @@ class Panel:
     Attributes
     ----------
     label
-        Quantity and unit.
+        Quantity, and its unit in brackets.
     curves
         Drawn in this order.
     smooth
         Whether the panel opens on the smooth motion, where impacts would flatten it.
-    unit
-        Unit for the note that says so.
     level
         A value to compare with, drawn as a fine line; none by default.
     marks
@@ -183,15 +184,89 @@ class Panel:
     label: str
     curves: Sequence[ChartCurve]
     smooth: bool = False
-    unit: str = ""
     level: float | None = None
     marks: ChartMarks | None = None
 
+    @property
+    def unit(self) -> str:
+        """The unit in its label."""
+        return "".join(_UNIT.findall(self.label))
+
+    @property
+    def quantity(self) -> str:
+        """Its label without the unit."""
+        return _UNIT.sub("", self.label)
+
+    @property
+    def fitted(self) -> tuple[Panel, float]:
+        """The same in the unit that fits its values, and the factor to it."""
+        unit, factor = fitting(self.unit, [peak(curve.values) for curve in self.curves])
+        if factor == 1.0:
+            return self, factor
+        label = _UNIT.sub(f"[{unit}]", self.label)
+        scaled = [replace(curve, values=factor * curve.values) for curve in self.curves]
+        level = None if self.level is None else factor * self.level
+        marks = self.marks and replace(self.marks, values=factor * self.marks.values)
+        return replace(self, label=label, curves=scaled, level=level, marks=marks), factor
+
+    def ordinate(self, time: FloatArray, turns: FloatArray, settling: float) -> tuple[list[float], str]:
+        """Return the ordinate that impacts or the first sample do not set, and a note on what lies beyond.
+
+        Parameters
+        ----------
+        time
+            Times [s], shape (n_t,).
+        turns, settling
+            Times of reversals, and how long impacts last after them [s].
+        """
+        values = np.array([curve.values for curve in self.curves if curve.values.shape == time.shape])
+        if values.size == 0 or time.size < _FEW:
+            return [], ""
+        limits = smooth_limits(time, values, turns, settling) if self.smooth else None
+        if limits is not None:
+            return list(limits), f"cut off: impacts reach {peak(values):.3g} {self.unit}".rstrip()
+        later = finite(values[:, 1:])
+        if later.size and np.ptp(later) < _FIRST * np.ptp(finite(values)):
+            room = 0.06 * float(np.ptp(later))
+            note = f"cut off: the first sample has {peak(values[:, 0]):.3g} {self.unit}".rstrip()
+            return [float(later.min()) - room, float(later.max()) + room], note
+        return [], ""
+
+
+_UNIT: Final = re.compile(r"\[([^\]]*)\]$", re.MULTILINE)
+_FEW: Final = 8
+"""Samples below which the first one is like the others."""
+_FIRST: Final = 0.5
+"""Range of all later samples over that of all below which the first one does not set the ordinate."""
+_CONSTANT: Final = 1.0e-6
+"""Range of a curve over its largest value that counts as constant."""
+_NOTHING: Final = 1.0e-9
+"""Size of a curve over the largest one of its panel that counts as zero."""
+_NOISE: Final = {"µm": 1.0e-4, "mm": 1.0e-7, "°": 1.0e-8, "mm/s": 1.0e-6, "°/s": 1.0e-6}
+"""Values of errors and offsets that are rounding or the solver's, by unit."""
+
+
+def telling(panels: Sequence[Panel]) -> tuple[list[Panel], str]:
+    """Return the panels that vary, without curves that are zero, and a note on those that are constant."""
+    varying, constant = [], []
+    for panel in panels:
+        reach = [peak(curve.values) for curve in panel.curves]
+        least = max(_NOTHING * max(reach, default=0.0), _NOISE.get(panel.unit, 0.0))
+        curves = [curve for curve, size in zip(panel.curves, reach, strict=True) if size > least]
+        if any(np.ptp(finite(curve.values)) > _CONSTANT * peak(curve.values) for curve in curves):
+            varying.append(replace(panel, curves=curves))
+        elif curves:
+            held, _ = replace(panel, curves=curves).fitted
+            values = ", ".join(f"{one.name} {finite(one.values)[0]:.4g}" for one in held.curves)
+            constant.append(f"{held.label.replace(chr(10), ' ')}: {values}")
+    return varying, f"Constant: {'; '.join(constant)}." if constant else ""
+
 
 def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | None:
-    """Return panels above each other over the simulated time; nothing where nothing was computed."""
+    """Return panels above each other over the simulated time; nothing where nothing varies."""
     time = series(dataset, "time")
-    if time.size < 2:
+    panels, note = telling(panels)
+    if time.size < 2 or not panels:
         return None
     turns = reversal_times(dataset)
     unit, scale = time_unit(dataset)
@@ -200,18 +275,23 @@ def over_time(dataset: xr.Dataset, panels: Sequence[Panel]) -> dict[str, Any] | 
         "time": True,
         "unit": unit,
         "scale": scale,
+        "note": note,
+        "coordinates": coordinates(dataset, scale),
         "turns": [float(turn * scale) for turn in turns],
         "windows": [[float(end * scale) for end in window] for window in impact_windows(dataset)],
         "panels": [_panel(panel, time, scale, turns, impact_time(dataset)) for panel in panels],
     }
 
 
-def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]:
-    """Return panels over something other than time."""
+def over(x: FloatArray, x_label: str, panels: Sequence[Panel], *, equal: bool = False) -> dict[str, Any]:
+    """Return panels over something other than time, ``equal`` with one scale on both axes."""
     none = np.empty(0)
     return {
         "x_label": x_label,
         "time": False,
+        "note": "",
+        "equal": equal,
+        "coordinates": [],
         "turns": [],
         "windows": [],
         "panels": [_panel(panel, x, 1.0, none, 0.0) for panel in panels],
@@ -220,10 +300,13 @@ def over(x: FloatArray, x_label: str, panels: Sequence[Panel]) -> dict[str, Any]
 
 def _panel(panel: Panel, x: FloatArray, scale: float, turns: FloatArray, settling: float) -> dict[str, Any]:
     """Return a panel as the script reads it, with the abscissa times a scale."""
-    limits, note = _limits(panel, x, turns, settling) if panel.smooth else ([], "")
+    panel, factor = panel.fitted
+    limits, note = panel.ordinate(x, turns, settling)
     shown = limits[1] - limits[0] if limits else _range(panel)
     return {
         "label": panel.label,
+        "quantity": panel.quantity,
+        "factor": factor,
         "limits": limits,
         "note": note,
         "curves": [_curve(curve, x, scale, shown / FINEST) for curve in panel.curves],
@@ -250,15 +333,6 @@ def _curve(curve: ChartCurve, common: FloatArray, scale: float, tolerance: float
         "x": stepped(x, 0.0),
         "y": stepped(y, tolerance),
     }
-
-
-def _limits(panel: Panel, time: FloatArray, turns: FloatArray, settling: float) -> tuple[list[float], str]:
-    """Return the ordinate of the smooth motion and a note on what lies beyond; nothing where all fits."""
-    values = np.array([curve.values for curve in panel.curves])
-    limits = smooth_limits(time, values, turns, settling)
-    if limits is None:
-        return [], ""
-    return list(limits), f"cut off, impacts reach {peak(values):.3g} {panel.unit}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -297,6 +371,10 @@ class Chart:
             data=self._payload,
             still=self.name,
         )
+
+    def drawn(self, dataset: xr.Dataset) -> list[Panel]:
+        """Return the panels that vary, in units that fit."""
+        return [panel.fitted[0] for panel in telling(self.panels(dataset))[0]]
 
     def _payload(self, dataset: xr.Dataset) -> Payload | None:
         return over_time(dataset, self.panels(dataset))

@@ -138,15 +138,14 @@ def balance_chart(balance: EnergyBalance, *, name: str, title: str, caption: str
 
 
 def _panels(balance: EnergyBalance, dataset: xr.Dataset) -> list[Panel]:
-    """Return one balance, in J or mJ: what is seen beside the largest term, and what is missed."""
+    """Return one balance [J]: what is seen beside the largest term, and what is missed."""
     terms = {name: label for name, label in balance.terms.items() if name in dataset}
     sizes = {name: peak(series(dataset, name)) for name in terms}
     largest = max(sizes.values())
-    unit, scale = ("J", 1.0) if largest >= 0.1 else ("mJ", 1e3)
     seen = sorted((name for name in terms if sizes[name] >= _SEEN * largest), key=lambda name: -sizes[name])
     curves = [
-        ChartCurve(terms[name], series(dataset, name, scale), colour, dash)
+        ChartCurve(terms[name], series(dataset, name), colour, dash)
         for name, (colour, dash) in zip(seen, LOOKS, strict=False)
     ]
-    curves.append(ChartCurve("residual", series(dataset, balance.residual, scale), "grey", width=4.0))
-    return [Panel(f"energy [{unit}]", curves)]
+    curves.append(ChartCurve("residual", series(dataset, balance.residual), "grey", width=4.0))
+    return [Panel("energy [J]", curves)]

@@ -41,6 +41,10 @@ def _case_of(text: str) -> MechanismCase | None:
     return case if isinstance(case, MechanismCase) else None
 
 
+_BOX: Final = 0.06
+"""Half the length of the box that a slider is drawn as, over the extent of all joints."""
+
+
 @dataclass(frozen=True)
 class Mark:
     """A joint as it is drawn.
@@ -172,9 +176,37 @@ def _ends(case: MechanismCase) -> Iterator[tuple[str, Vector]]:
 
 def _outlines(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[Outline]:
     """Yield the lines that show elements but springs."""
+    yield from (_numbered(outline, bodies) for outline in _sliders(case))
     for _, _, keys in case.elements():
         for outline in () if keys.IS_SPRING else keys.outlines(case.joints):
             yield _numbered(outline, bodies)
+
+
+def _sliders(case: MechanismCase) -> Iterator[Iterable[tuple[str, FloatArray]]]:
+    """Yield a box around the pin of each body on a straight guide, and the line of the guide."""
+    size = _BOX * float(np.max(np.ptp([joint.point for joint in case.joints.values()], axis=0)))
+    for guide in case.joints.values():
+        if (
+            "angle" in guide.kind.COORDINATES
+            or "position" not in guide.kind.COORDINATES
+            or guide.axis is None
+        ):
+            continue
+        carrier, slider = guide.between if guide.between[1] != GROUND else guide.between[::-1]
+        pins = [one for one in case.joints.values() if slider in one.between and one is not guide]
+        pin = next((one for one in pins if one.axis is not None), None)
+        along, middle = np.array(unit(guide.axis, "axis")), np.array((pin or guide).point)
+        across = np.cross(
+            unit(pin.axis, "axis") if pin and pin.axis else np.eye(3)[np.argmin(np.abs(along))], along
+        )
+        if not across.any():
+            continue
+        across *= size / np.linalg.norm(across)
+        corners = [
+            a * size * along + b * 0.6 * across for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
+        ]
+        yield [(slider, middle + np.array(corners))]
+        yield [(carrier, middle + np.array([[-3.0], [3.0]]) * size * along)]
 
 
 def _springs(case: MechanismCase, bodies: tuple[str, ...]) -> Iterator[Outline]:

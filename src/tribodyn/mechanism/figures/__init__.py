@@ -15,6 +15,7 @@ FIGURES: Final[dict[str, Family]] = {
         mechanism.FAMILY,
         mechanism.MODE_SHAPES,
         *map(chart.family, CHARTS),
+        joints.HODOGRAPHS,
         joints.ORBITS,
         *joints.MAPS,
         energy.family(BALANCES),

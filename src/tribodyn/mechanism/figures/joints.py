@@ -2,20 +2,28 @@
 
 from collections.abc import Sequence
 from functools import partial
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.figure_family import Family
-from tribodyn.figures.style import BLUE, GREY, INK, SMALL, caption, finish, note, sheet
+from tribodyn.figures.style import BLUE, GREY, INK, caption, colour_bar, finish, note, sheet
 from tribodyn.figures.unrolled import COLOURS
 from tribodyn.mechanism.sections import joints as maps
-from tribodyn.mechanism.sections.joints import MOST, SurfaceMap, real_joints, surfaces
+from tribodyn.mechanism.sections.joints import (
+    MOST,
+    SurfaceMap,
+    hodograph,
+    loaded_joints,
+    real_joints,
+    surfaces,
+)
 from tribodyn.views.series import peak
 from tribodyn.views.unrolled import best_cut, rolled
 
@@ -56,22 +64,45 @@ def draw_maps(drawn: SurfaceMap, dataset: xr.Dataset) -> Figure:
     for axes, (surface, place, theta, fields) in zip(panels, found, strict=False):
         field = fields.max(axis=0)
         shown, size = drawn.unit(float(field.max()))
-        _draw_map(axes, place, theta, field / size)
+        mesh = _draw_map(axes, place, theta, field / size)
         caption(axes, surface)
-        text = f"largest {field.max() / size:.3g} {shown}"
-        axes.text(1.0, 1.04, text, transform=axes.transAxes, ha="right", size=SMALL - 0.5, color=GREY)
-        finish(axes, "angle [°]", "[mm]")
+        finish(axes, "angle about the axis [°]", _along(surface))
+        colour_bar(figure, mesh, axes, f"{drawn.label} [{shown}]")
     if not found:
         note(panels[0], f"no {drawn.label.removesuffix(' depth')}")
     return figure
 
 
-def _draw_map(axes: Axes, place: FloatArray, theta: FloatArray, field: FloatArray) -> None:
+def draw_hodographs(dataset: xr.Dataset) -> Figure:
+    """Draw the end of the force vector of each joint in the plane in which it varies most."""
+    chosen = loaded_joints(dataset)
+    drawn = [one for joint in chosen.joints if (one := hodograph(dataset, joint)) is not None]
+    names = [one.joint for one in drawn]
+    figure, panels = _grid(dataset, f"{HODOGRAPHS.title}{chosen.which}", names, 2.9)
+    for axes, one in zip(panels, drawn, strict=False):
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.axhline(0.0, color=GREY, linewidth=0.6)
+        axes.axvline(0.0, color=GREY, linewidth=0.6)
+        axes.plot(*one.values, color=BLUE, linewidth=0.9)
+        caption(axes, one.joint)
+        finish(axes, *one.labels)
+    return figure
+
+
+def _along(surface: str) -> str:
+    """Return the label of the second coordinate of a surface: height, radius of a face, or arc of a ball."""
+    name = surface.rpartition(":")[2]
+    return f"{'radius' if name in ('upper', 'lower') else 'arc' if name == 'ball' else 'height'} [mm]"
+
+
+def _draw_map(axes: Axes, place: FloatArray, theta: FloatArray, field: FloatArray) -> QuadMesh:
     angle, values = rolled(theta, field, best_cut(theta, field.max(axis=1)))
-    axes.pcolormesh(angle, 1e3 * place, values.T, shading="gouraud", cmap=COLOURS, vmin=0.0, rasterized=True)
+    look: dict[str, Any] = {"shading": "gouraud", "cmap": COLOURS, "vmin": 0.0, "rasterized": True}
+    mesh = axes.pcolormesh(angle, 1e3 * place, values.T, **look)
     ticks = 90.0 * np.ceil(angle[0] / 90.0 - 1e-9) + 90.0 * np.arange(5)
     axes.set_xticks(ticks, [f"{tick % 360:.0f}" for tick in ticks])
     axes.set_xlim(angle[0], angle[-1])
+    return mesh
 
 
 def _grid(
@@ -97,6 +128,17 @@ ORBITS: Final = Family(
     ),
     needs=("displacement", "clearance", "joint", "surface"),
     draw=draw_orbits,
+)
+HODOGRAPHS: Final = Family(
+    name="hodographs",
+    title="Direction of the forces in the joints",
+    caption=(
+        "Path of the end of the force vector on the shaft's body, in the two axes of the joint along which "
+        "it changes most: how large the force is, and from where it presses."
+    ),
+    needs=("reaction_force", "joint"),
+    draw=draw_hodographs,
+    shows=lambda dataset: any(hodograph(dataset, joint) for joint in loaded_joints(dataset).joints),
 )
 MAPS: Final = tuple(
     Family(

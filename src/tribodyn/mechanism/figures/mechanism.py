@@ -19,6 +19,8 @@ _NAMED: Final = 16
 """Bodies up to which these and their joints are named: names of more would lie on each other."""
 _AWAY: Final = 9.0
 """Distance of a name from what it names [pt]."""
+_CLOSE: Final = 0.1
+"""Distance of joints over that of all below which their names stand above each other."""
 _STEEP: Final = 0.5
 """Share of a direction to the side from which a name begins or ends there, and is not centred."""
 _MOMENTS: Final = 8
@@ -116,12 +118,17 @@ def draw_joints(
         if mark.body >= 0:
             point = drawn.moved(mark.point[None], mark.body, position[mark.body], orientation[mark.body])[0]
         there.setdefault(tuple((plane @ point).round(1)), []).append(mark)
+    named: list[FloatArray] = []
+    near = _CLOSE * float(np.max(np.ptp([*there], axis=0)))
     for (x, y), marks in there.items():
         rim = VERMILION if any(mark.real for mark in marks) else INK
         axes.plot(x, y, "o", ms=7, mfc="white", mec=rim, mew=1.4, zorder=4)
         if len(drawn.bodies) <= _NAMED:
             names = ", ".join(mark.name for mark in marks)
-            _name(axes, names, np.array([x, y]), np.array([0.7, 1.0]), INK)
+            place = np.array([x, y])
+            taken = any(np.hypot(*(place - other)) < near for other in named)
+            _name(axes, names, place, np.array([0.7, 2.2 if taken else 1.0]), INK)
+            named.append(place)
 
 
 FAMILY: Final = Family(

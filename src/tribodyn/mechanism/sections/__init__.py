@@ -7,7 +7,7 @@ import numpy as np
 from tribodyn.mechanism.results.readings import offset, sizes
 from tribodyn.mechanism.sections import mechanism
 from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
-from tribodyn.mechanism.sections.joints import FILM_PRESSURE, ORBITS, PRESSURE, REACTIONS, WEAR
+from tribodyn.mechanism.sections.joints import FILM_PRESSURE, HODOGRAPHS, ORBITS, PRESSURE, REACTIONS, WEAR
 from tribodyn.views.overlay import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY
@@ -21,7 +21,10 @@ CHAPTERS: Final = (
         playback=True,
     ),
     Chapter(
-        "time", "Over time", OVER_TIME, (*(chart.section for chart in CHARTS), REACTIONS, ENERGY.section)
+        "time",
+        "Over time",
+        OVER_TIME,
+        (*(chart.section for chart in CHARTS), REACTIONS, HODOGRAPHS, ENERGY.section),
     ),
     Chapter("worn", "Wear", "What is worn off the joints.", (WEAR.section, WEAR_HISTORY)),
 )

@@ -11,8 +11,9 @@ from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.sections.shafts import Shafts
 from tribodyn.views.bushing import Unrolled
-from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over_time
+from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over, over_time
 from tribodyn.views.encode import packed, stepped
+from tribodyn.views.numbers import fitting
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.series import peak
@@ -22,6 +23,8 @@ from tribodyn.views.wear import fitting_unit
 MOST: Final = 8
 """Joints that are shown one by one; of more, those that are loaded most."""
 _AXES: Final = "xyz"
+_LINE: Final = 1.0e-3
+"""Range of a force across its line, over its size, up to which it keeps its direction."""
 LAID_FLAT: Final = (
     "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
     "or arc of a ball."
@@ -100,6 +103,49 @@ def _vector(label: str, values: FloatArray) -> Panel:
         for i, (axis, (colour, dash)) in enumerate(zip(_AXES, LOOKS, strict=False))
     ]
     return Panel(label, curves)
+
+
+@dataclass(frozen=True)
+class Hodograph:
+    """Path of the end of a force vector in a plane.
+
+    Attributes
+    ----------
+    joint
+        Name.
+    values
+        Components of the force in a unit that fits, shape (2, n_t).
+    labels
+        Of the axes.
+    """
+
+    joint: str
+    values: FloatArray
+    labels: tuple[str, str]
+
+
+def hodograph(dataset: xr.Dataset, joint: int) -> Hodograph | None:
+    """Return the path of the force in a joint in the two of its axes along which it changes most."""
+    force = dataset["reaction_force"].values[:, joint]
+    if len(force) < 3:
+        return None
+    spread = np.ptp(np.nan_to_num(force[1:]), axis=0)
+    axes = np.sort(np.argsort(-spread, kind="stable")[:2])
+    unit, factor = fitting("N", [peak(force)])
+    if np.min(spread[axes]) <= _LINE * peak(force):
+        return None
+    labels = [f"force along {_AXES[axis]} [{unit}]" for axis in axes]
+    return Hodograph(_names(dataset)[joint], factor * force[1:, axes].T, (labels[0], labels[1]))
+
+
+def hodographs(dataset: xr.Dataset) -> Payload | None:
+    """Return the paths of the forces of joints."""
+    chosen, parts = loaded_joints(dataset), {}
+    for joint in chosen.joints:
+        if (one := hodograph(dataset, joint)) is not None:
+            panel = Panel(one.labels[1], [ChartCurve(one.joint, one.values[1], "blue", x=one.values[0])])
+            parts[one.joint] = over(one.values[0], one.labels[0], [panel], equal=True)
+    return choice("lines", f"joint{chosen.which}", parts)
 
 
 def orbits(dataset: xr.Dataset) -> Payload | None:
@@ -216,12 +262,21 @@ def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, 
         field = np.nan_to_num(dataset[name].isel(surface=k).values)
         field = field if field.ndim == 3 else field[None]
         place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
-        rows, columns = np.append(np.diff(place) > 0.0, True), np.append(np.diff(theta) > 0.0, True)
+        rows, columns = np.append(True, np.diff(place) > 0.0), np.append(True, np.diff(theta) > 0.0)
         if np.count_nonzero(rows) > 1:
             own = field[:, rows][:, :, columns]
             yield str(surface), place[rows], theta[columns], own.transpose(0, 2, 1)
 
 
+HODOGRAPHS: Final = Section(
+    name="hodographs",
+    title="Direction of the force in a joint",
+    caption="Path of the end of the force vector on the shaft's body, in two axes of the joint.",
+    needs=("reaction_force", "joint"),
+    widget="choice",
+    data=hodographs,
+    still="hodographs",
+)
 REACTIONS: Final = Section(
     name="reactions",
     title="Force and moment of a joint",

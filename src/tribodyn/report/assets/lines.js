@@ -34,9 +34,18 @@ class Lines {
     this.hover = element("div", { class: "hover", "aria-hidden": "true", hidden: "" });
     this.area.append(this.hover);
     this.legend = element("span", { class: "legends" });
+    this.over = element("select", {});
+    this.over.addEventListener("change", () => {
+      this.view = null;
+      this.limits = [];
+      this.take(this.given, this.others);
+      this.paint();
+    });
+    this.chooser = element("label", { class: "chooser" }, "Over", this.over);
     tools(
       box,
       this.legend,
+      this.chooser,
       element("span", { class: "gap" }),
       element(
         "span",
@@ -52,8 +61,15 @@ class Lines {
   }
 
   /** Take curves to draw, and those of other runs that show through; zoom and hidden curves stay. */
-  take(data, ghosts) {
+  take(given, others) {
     const wasWhole = !this.view || same(this.view, this.span);
+    Object.assign(this, { given, others });
+    this.chooseFrom(given.coordinates);
+    const data = overCoordinate(given, this.over.value);
+    const ghosts = others.map(({ data: other, strength }) => {
+      const drawn = overCoordinate(other, this.over.value);
+      return { strength, panels: data.panels.map((panel) => alike(panel, drawn.panels)) };
+    });
     Object.assign(this, { data, ghosts, span: wholeSpan(data) });
     if (wasWhole) this.view = [...this.span];
     const count = data.panels.length;
@@ -61,8 +77,20 @@ class Lines {
     this.area.style.height = `${height}px`;
     this.nameCurves();
     const notes = data.panels.filter((panel) => panel.note).map((panel) => `${panel.label}: ${panel.note}`);
-    this.note.textContent = notes.join(" · ");
-    this.note.hidden = !notes.length;
+    this.note.textContent = [...notes, given.note].filter(Boolean).join(" · ");
+    this.note.hidden = !this.note.textContent;
+  }
+
+  /** Offer time and the angles of joints as the abscissa. */
+  chooseFrom(coordinates) {
+    const names = coordinates.map(({ name }) => name);
+    this.chooser.hidden = !names.length;
+    if (names.join("\n") === this.offered) return;
+    this.offered = names.join("\n");
+    const before = this.over.value;
+    const option = (value, text) => element("option", { value }, text);
+    this.over.replaceChildren(option("", "time"), ...names.map((name) => option(name, `angle of ${name}`)));
+    this.over.value = names.includes(before) ? before : "";
   }
 
   /** Write the legend anew where the names of the curves have changed. */
@@ -106,6 +134,7 @@ class Lines {
   paint() {
     const pen = this.ground.fresh();
     const frames = this.frames();
+    if (this.data.equal && same(this.view, this.span)) this.equalise(frames[0]);
     this.x = scaleOf(...this.view, frames[0].left, frames[0].right);
     const marks = roundMarks(...this.view, Math.max(2, (frames[0].right - frames[0].left) / 90));
     this.panels = this.data.panels.map((panel, k) => {
@@ -119,11 +148,24 @@ class Lines {
     this.area.plotted = this;
   }
 
+  /** Show the whole with one scale on both axes. */
+  equalise(frame) {
+    const [panel] = this.data.panels;
+    const reach = [this.span, ends(panel.curves.map((curve) => curve.y))];
+    const sizes = [frame.right - frame.left, frame.bottom - frame.top];
+    const each = Math.max(...reach.map(([low, high], k) => (1.1 * (high - low)) / sizes[k]));
+    [this.view, this.limits[0]] = reach.map(([low, high], k) => {
+      const middle = 0.5 * (low + high);
+      return [middle - 0.5 * each * sizes[k], middle + 0.5 * each * sizes[k]];
+    });
+    this.span = [...this.view];
+  }
+
   /** Return the ends of a panel's ordinate: zoomed, of the smooth motion, or of all that is not hidden. */
   ordinate(panel, k) {
     if (this.limits[k]) return this.limits[k];
     if (this.cut && panel.limits.length) return panel.limits;
-    const others = this.ghosts.map((ghost) => ghost.data.panels[k]).filter(Boolean);
+    const others = this.ghosts.map((ghost) => ghost.panels[k]).filter(Boolean);
     const curves = [panel, ...others].flatMap((one) => one.curves).filter(({ name }) => !this.hidden.has(name));
     const [low, high] = ends(curves.map((curve) => curve.y));
     const room = high > low ? 0.06 * (high - low) : Math.abs(low) || 1;
@@ -159,7 +201,7 @@ class Lines {
       drawCurve(pen, curve.x, curve.y, this.x, y);
     };
     pen.lineJoin = "round";
-    for (const { data, strength } of this.ghosts) data.panels[k]?.curves.forEach((curve) => draw(curve, strength));
+    for (const { panels, strength } of this.ghosts) panels[k]?.curves.forEach((curve) => draw(curve, strength));
     panel.curves.forEach((curve) => draw(curve, 1));
     pen.globalAlpha = 1;
     pen.setLineDash([]);
@@ -177,6 +219,43 @@ class Lines {
     if (this.drag) shadeDrag(pen, this.drag);
     tellValues(this, pen);
   }
+}
+
+/** Return the panel of another run that shows the same quantity, in the unit of this one. */
+function alike(panel, others) {
+  const found = others.find(({ quantity }) => quantity === panel.quantity);
+  const factor = found && panel.factor / found.factor;
+  if (!found || factor === 1) return found;
+  return { ...found, curves: found.curves.map((curve) => ({ ...curve, y: curve.y.map((value) => factor * value) })) };
+}
+
+/** Return charts over time as charts over the angle of a joint [°], within one turn. */
+function overCoordinate(data, name) {
+  const found = data.coordinates.find((one) => one.name === name);
+  if (!found) return data;
+  const [low, high] = ends([found.y]);
+  const turn = high - low > 360 ? 360 : 0;
+  const panels = data.panels.map((panel) => ({ ...panel, curves: panel.curves.map((curve) => along(curve, found, turn)) }));
+  return { ...data, panels, x_label: `angle of ${name} [°]`, time: false, turns: [], windows: [] };
+}
+
+/** Return a curve over the values of another one at the same times, with a gap where a turn ends. */
+function along(curve, { x: times, y: values }, turn) {
+  const [x, y] = [[], []];
+  let n = 1;
+  for (let k = 0; k < curve.x.length; k++) {
+    while (n < times.length - 1 && times[n] < curve.x[k]) n++;
+    const share = (curve.x[k] - times[n - 1]) / (times[n] - times[n - 1]);
+    const value = values[n - 1] + share * (values[n] - values[n - 1]);
+    const place = turn ? ((value % turn) + turn) % turn : value;
+    if (turn && k && Math.abs(place - x[x.length - 1]) > turn / 2) {
+      x.push(place);
+      y.push(NaN);
+    }
+    x.push(place);
+    y.push(curve.y[k]);
+  }
+  return { ...curve, x, y };
 }
 
 /** Tell whether two stretches are the same. */

@@ -24,7 +24,7 @@ def panels(dataset: xr.Dataset) -> list[Panel]:
     speed = series(dataset, "omega_v", DEG) - series(dataset, "omega_v_ideal", DEG)
     return [
         Panel("angle error [°]", [ChartCurve("angle error", error(dataset))]),
-        Panel("speed error [°/s]", [ChartCurve("speed error", speed)], smooth=True, unit="°/s"),
+        Panel("speed error [°/s]", [ChartCurve("speed error", speed)], smooth=True),
     ]
 
 
