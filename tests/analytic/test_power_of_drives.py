@@ -23,7 +23,7 @@ def test_a_drive_gives_what_a_brake_takes(analysis: str, between: tuple[str, str
     drawn.revolute("axle", *between, point="0, 0, 0 m", axis=[0, 0, 1])
     speed = 100.0 if between[1] == "wheel" else -100.0
     told = summarise(td.simulate(braked(drawn.drive("motor", joint="axle", speed=f"{speed} rad/s"), 5.0)))
-    of_drives = {f"drive_power_{kind}_W" for kind in ("mean", "rms", "max", "lasting")}
+    of_drives = {f"drive_power_{kind}_W" for kind in ("mean", "rms", "max", "sustained")}
     assert {name: told[name] for name in of_drives} == pytest.approx(dict.fromkeys(of_drives, 500.0))
     assert told["load_power_mean_W"] == pytest.approx(-500.0)
     assert told["drive_moment_rms_Nm"] == pytest.approx(5.0)

@@ -30,7 +30,7 @@ PEAKS: Final = 3e-2
 """What an impact decides: where steps fall moves it, from tolerance to tolerance as between processors."""
 BOUNDS: Final = {
     **dict.fromkeys(("_max_", "peak_", "_outside_", "rebounds", "settling", "speed_error"), (PEAKS, 8e-2)),
-    "_lasting_": (2e-2, 5e-2),
+    "_sustained_": (2e-2, 5e-2),
     "force_mean_": (CLOSE, 1e-2),
     # Means with their sign, of which parts cancel: that of four-bar scatters by 2 % over tolerances.
     **dict.fromkeys(("error_forward", "error_backward"), (1e-2, 5e-2)),

@@ -70,7 +70,7 @@ def apart(runs: Runs, clearance: int, what: str) -> str:
 
 
 NUMBERS: Final[Numbers] = {
-    "four-bar, sustained [N]": partial(four_bar, name="joint_force_lasting_N"),
+    "four-bar, sustained [N]": partial(four_bar, name="joint_force_sustained_N"),
     "four-bar, peak [N]": partial(four_bar, name="joint_force_max_N"),
     "four-bar, peaks over tolerances [%]": partial(four_bar_spread, name="joint_force_max_N"),
     "four-bar, means over tolerances [%]": partial(four_bar_spread, name="force_mean_N_main"),

@@ -63,7 +63,7 @@ DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
 }
 """Parts of names of key results: errors in one direction of motion."""
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
-    "lasting": (
+    "sustained": (
         "sustained",
         "Largest difference from the motion with ideal joints for 99 % of the time; impacts excluded.",
         sustained,

@@ -82,6 +82,23 @@ class KeyResult:
 
 
 Summary: TypeAlias = dict[str, float | int | str | list[str]]
+
+
+class _Numbers(Summary):
+    """Key results by name; earlier names find those of today."""
+
+    def __missing__(self, name: str) -> float | int | str | list[str]:
+        """Return the key result that had another name earlier."""
+        if (now := name_today(name)) == name:
+            raise KeyError(name)
+        return self[now]
+
+
+def name_today(name: str) -> str:
+    """Return the name of a key result, also for one that it had earlier."""
+    return name.replace("_lasting", "_sustained")
+
+
 """Key results and texts of a run, as in ``summary.json``."""
 
 
@@ -167,16 +184,18 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
         that follow from a material that nobody chose.
     """
     failure = str(dataset.attrs.get("failure", ""))
-    summary: Summary = {
-        "kind": str(dataset.attrs.get("kind", "")),
-        "title": str(dataset.attrs.get("title", "")),
-        "status": "failed" if failure else "complete",
-        "failure": failure,
-        "doubtful": warning(dataset),
-        "warnings": json_attribute(dataset, "warnings", []),
-        "notes": json_attribute(dataset, "notes", []),
-        **{name: str(dataset.attrs[name]) for name in (DATA_HASH, ROWS_HASH) if name in dataset.attrs},
-    }
+    summary: Summary = _Numbers(
+        {
+            "kind": str(dataset.attrs.get("kind", "")),
+            "title": str(dataset.attrs.get("title", "")),
+            "status": "failed" if failure else "complete",
+            "failure": failure,
+            "doubtful": warning(dataset),
+            "warnings": json_attribute(dataset, "warnings", []),
+            "notes": json_attribute(dataset, "notes", []),
+            **{name: str(dataset.attrs[name]) for name in (DATA_HASH, ROWS_HASH) if name in dataset.attrs},
+        }
+    )
     with reading_once():
         for name, key_result in {**key_results, **EFFORT}.items():
             value = _number(key_result, dataset)

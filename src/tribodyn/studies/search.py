@@ -20,7 +20,7 @@ from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given, meant, nearest
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import key_results_of_case
-from tribodyn.results.summary import KeyResult
+from tribodyn.results.summary import KeyResult, name_today
 from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written
@@ -341,7 +341,7 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
         There is no such key result, or what follows is no number.
     """
     name, equals, number = (part.strip() for part in text.partition("="))
-    at_least, name = name.endswith(">"), name.rstrip("<> ")
+    at_least, name = name.endswith(">"), name_today(name.rstrip("<> "))
     known = key_results_of_case(case)
     words = name.split("_")
     matching = [name] if name in known else [one for one in known if set(words) <= set(one.split("_"))]

@@ -249,6 +249,8 @@ _NOISE: Final = {"µm": 1.0e-4, "mm": 1.0e-7, "°": 1.0e-8, "mm/s": 1.0e-6, "°/
 def telling(panels: Sequence[Panel]) -> tuple[list[Panel], str]:
     """Return the panels that vary, without curves that are zero, and a note on those that are constant."""
     varying, constant = [], []
+    if not any(finite(curve.values).size for panel in panels for curve in panel.curves):
+        return [*panels], ""
     for panel in panels:
         reach = [peak(curve.values) for curve in panel.curves]
         least = max(_NOTHING * max(reach, default=0.0), _NOISE.get(panel.unit, 0.0))

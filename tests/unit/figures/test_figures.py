@@ -56,6 +56,9 @@ def test_every_figure_draws_every_run(name, run, runs):
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_axes_are_labelled_with_units(name, runs):
+    if not FIGURES[name].drawable(runs["whole"]):
+        assert name == "clearance"  # it is constant
+        return
     figure = FIGURES[name].draw(runs["whole"])
     labels = [label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label]
     assert labels
@@ -91,7 +94,7 @@ def test_lines_that_grey_does_not_tell_apart_are_noticed():
 
 def test_draw_all_writes_png_of_sensible_size_and_pdf(make_result, tmp_path):
     paths = draw_all(make_result(0.4), tmp_path / "figures")
-    assert [path.stem for path in paths] == list(FIGURES)
+    assert [path.stem for path in paths] == [name for name in FIGURES if name != "clearance"]  # constant
     for path in paths:
         head = path.read_bytes()[:24]
         assert head.startswith(b"\x89PNG")

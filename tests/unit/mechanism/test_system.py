@@ -132,7 +132,7 @@ def test_no_blow_falls_between_rows() -> None:
             told[0]["force_max_N_coupler_pin"], rel=0.01
         )
     assert told[3]["force_max_N_coupler_pin"] < 0.6 * told[0]["force_max_N_coupler_pin"]
-    assert told[0]["force_lasting_N_coupler_pin"] < 0.2 * told[0]["force_max_N_coupler_pin"]
+    assert told[0]["force_sustained_N_coupler_pin"] < 0.2 * told[0]["force_max_N_coupler_pin"]
 
 
 def test_power_is_what_the_balance_says_and_not_the_error_of_a_sum_of_works() -> None:

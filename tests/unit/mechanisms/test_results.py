@@ -4,10 +4,15 @@ from tribodyn.mechanisms.results import key_numbers_of
 
 
 def test_errors_of_outputs_come_before_forces() -> None:
-    names = ["peak_pressure_MPa", "joint_force_lasting_N", "error_max_um_slider", "error_lasting_um_slider"]
+    names = [
+        "peak_pressure_MPa",
+        "joint_force_sustained_N",
+        "error_max_um_slider",
+        "error_sustained_um_slider",
+    ]
     assert key_numbers_of("mechanism", names) == [
-        "error_lasting_um_slider",
-        "joint_force_lasting_N",
+        "error_sustained_um_slider",
+        "joint_force_sustained_N",
         "peak_pressure_MPa",
     ]
 

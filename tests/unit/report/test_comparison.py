@@ -94,7 +94,7 @@ def test_bad_arguments_write_nothing(arguments, make_result, tmp_path, monkeypat
 
 PARTS = {
     "joint_force_max_N": "force_max_N_",
-    "joint_force_lasting_N": "force_lasting_N_",
+    "joint_force_sustained_N": "force_sustained_N_",
     "peak_pressure_MPa": "peak_pressure_MPa_",
     "offset_max_um": "offset_max_um_",
     "wear_depth_max_nm": "wear_depth_nm_",

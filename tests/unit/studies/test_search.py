@@ -101,9 +101,9 @@ def test_a_number_of_a_joint_is_asked_for_by_its_name() -> None:
 
 def test_the_one_taken_of_several_numbers_is_named() -> None:
     crank = td.load_case("slider-crank")
-    until = limit("lasting_N=30", crank, "--until")
-    assert until.name == "joint_force_lasting_N"
-    assert {"force_lasting_N_wrist", "force_lasting_N_crankpin"} <= {*until.others}
+    until = limit("sustained_N=30", crank, "--until")
+    assert until.name == "joint_force_sustained_N"
+    assert {"force_sustained_N_wrist", "force_sustained_N_crankpin"} <= {*until.others}
     assert limit("error_max_um_slider=30", crank, "--until").others == ()
 
 

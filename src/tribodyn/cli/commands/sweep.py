@@ -163,9 +163,10 @@ def _finite(numbers: dict[str, float]) -> dict[str, float]:
 def _shown(asked: str | None, case: Case) -> list[str]:
     """Return the names of the key results that the user requests."""
     from tribodyn.mechanisms.results import key_results_of_case
+    from tribodyn.results.summary import name_today
     from tribodyn.studies.search import LISTED
 
-    names = [name.strip() for name in (asked or "").split(",") if name.strip()]
+    names = [name_today(name.strip()) for name in (asked or "").split(",") if name.strip()]
     known = key_results_of_case(case)
     for name in names:
         if name not in known:

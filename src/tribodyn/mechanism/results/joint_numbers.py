@@ -29,7 +29,7 @@ def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByP
     def made(joint: str) -> KeyResult:
         name = label if joint else f"{label} in a joint"
         number = KeyResult(
-            f"{name}, largest outside impacts",
+            f"{name}, peak without impacts",
             unit,
             "Joints" if joint else "Load",
             "Once the impacts after reversals of the drive have died away.",
@@ -211,7 +211,7 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         )
     },
     **_pair_named(
-        ("force_lasting_N", "force_max_N"),
+        ("force_sustained_N", "force_max_N"),
         "Force",
         "N",
         "Largest force in this joint",
@@ -225,14 +225,14 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         lambda d, j: time_mean(d, of_part(d, "reaction_force", j, readings.lengths)),
     ),
     "offset_max_um": _named(
-        "Offset, largest",
+        "Offset, peak",
         "µm",
         "Joints",
         "Largest distance of the pin from the centre of the bore.",
         lambda d, j: peak(settled(d, readings.offset(d, j))) * 1e6,
     ),
     **_pair_named(
-        ("pressure_lasting_MPa", "peak_pressure_MPa"),
+        ("pressure_sustained_MPa", "peak_pressure_MPa"),
         "Contact pressure",
         "MPa",
         "Highest pressure in this joint",

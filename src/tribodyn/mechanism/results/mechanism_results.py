@@ -71,7 +71,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         count=True,
     ),
     **pair(
-        ("joint_force_lasting_N", "joint_force_max_N"),
+        ("joint_force_sustained_N", "joint_force_max_N"),
         "Force in a joint",
         "N",
         "Load",
@@ -79,7 +79,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         lambda d: readings.sizes(d, "reaction_force"),
     ),
     **pair(
-        ("pressure_lasting_MPa", "peak_pressure_MPa"),
+        ("pressure_sustained_MPa", "peak_pressure_MPa"),
         "Contact pressure",
         "MPa",
         "Load",
@@ -89,7 +89,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
     ),
     **{name: made("") for name, made in OUTSIDE.items()},
     "flash_temperature_K": KeyResult(
-        "Flash temperature, largest",
+        "Flash temperature, peak",
         "K",
         "Load",
         "How much warmer than the surfaces their asperities get in any joint, an estimate, where pressure "
@@ -98,7 +98,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         digits=2,
     ),
     **pair(
-        ("drive_moment_lasting_Nm", "drive_moment_max_Nm"),
+        ("drive_moment_sustained_Nm", "drive_moment_max_Nm"),
         "Drive moment",
         "N m",
         "Drive",
@@ -106,7 +106,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         lambda d: reading.column(d, "drive_moment"),
     ),
     **pair(
-        ("drive_force_lasting_N", "drive_force_max_N"),
+        ("drive_force_sustained_N", "drive_force_max_N"),
         "Drive force",
         "N",
         "Drive",
@@ -114,7 +114,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         lambda d: reading.column(d, "drive_force"),
     ),
     **pair(
-        ("drive_power_lasting_W", "drive_power_max_W"),
+        ("drive_power_sustained_W", "drive_power_max_W"),
         "Power of the drives",
         "W",
         "Drive",
@@ -137,7 +137,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
     ),
     **{name: made("") for name, made in DRIVEN.items()},
     "offset_max_um": KeyResult(
-        "Offset in a joint, largest",
+        "Offset in a joint, peak",
         "µm",
         "Accuracy",
         "Largest distance of a pin from the centre of its bore.",
@@ -172,7 +172,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         lambda d: reading.time_mean(d, np.nansum(reading.column(d, "film_power"), axis=1)),
     ),
     "wear_depth_max_nm": KeyResult(
-        "Wear depth, largest",
+        "Wear depth, peak",
         "nm",
         "Wear",
         "Largest wear depth of any joint.",
@@ -197,11 +197,11 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
 }
 KEY_NUMBERS: Final = (
     "frequency_Hz_*",
-    "error_lasting_*",
-    "joint_force_lasting_N",
+    "error_sustained_*",
+    "joint_force_sustained_N",
     "peak_pressure_MPa",
     "offset_max_um",
-    "drive_moment_lasting_Nm",
+    "drive_moment_sustained_Nm",
     "joint_force_max_N",
     "energy_residual_percent",
 )

@@ -85,7 +85,7 @@ class _Peak:
         return {
             **({self.sustained: lasts} if self.sustained else {}),
             quiet: KeyResult(
-                f"{self.label}, largest outside impacts",
+                f"{self.label}, peak without impacts",
                 self.unit,
                 self.group,
                 self.meaning,
@@ -125,7 +125,7 @@ _LOADS: Final = (
         "contact_force",
         1.0,
         lambda d: norm(d, "F_cx", "F_cy"),
-        sustained="contact_force_lasting_N",
+        sustained="contact_force_sustained_N",
     ),
     _Peak(
         ("pressure_outside_MPa", "peak_pressure_MPa"),
@@ -136,7 +136,7 @@ _LOADS: Final = (
         "pressure",
         1e-6,
         lambda d: column(d, "p_max"),
-        sustained="pressure_lasting_MPa",
+        sustained="pressure_sustained_MPa",
     ),
     _Peak(
         ("tilt_outside_mrad", "tilt_max_mrad"),
@@ -169,7 +169,7 @@ _LOADS: Final = (
         "drive_moment",
         1.0,
         lambda d: column(d, "M_d"),
-        sustained="drive_moment_lasting_Nm",
+        sustained="drive_moment_sustained_Nm",
     ),
 )
 

@@ -37,14 +37,14 @@ def test_the_error_is_that_of_the_vane_angle(vane: xr.Dataset) -> None:
 def test_statistics_are_those_of_user_defined_mechanisms(vane: xr.Dataset) -> None:
     numbers = summarise(vane)
     assert numbers["error_max_deg_vane"] == pytest.approx(numbers["vane_angle_error_max_deg"], rel=0.02)
-    assert numbers["error_rms_deg_vane"] < numbers["error_lasting_deg_vane"] < numbers["error_max_deg_vane"]
+    assert numbers["error_rms_deg_vane"] < numbers["error_sustained_deg_vane"] < numbers["error_max_deg_vane"]
     # Air loads and friction press the trunnion to opposite sides in both directions.
     assert numbers["error_forward_deg_vane"] < 0.0 < numbers["error_backward_deg_vane"]
     assert numbers["error_of_limit_percent_vane"] == pytest.approx(
         100.0 / 0.06 * np.degrees(np.abs(column(vane, "output_error")[:, 0]).max())
     )
     assert numbers["error_rms_deg_per_s_speed"] > 0.0
-    assert numbers["drive_moment_lasting_Nm"] <= numbers["drive_moment_max_Nm"]
+    assert numbers["drive_moment_sustained_Nm"] <= numbers["drive_moment_max_Nm"]
 
 
 def test_errors_are_read_where_the_crank_passes_an_angle(vane: xr.Dataset) -> None:
@@ -65,7 +65,7 @@ def test_errors_are_read_where_the_crank_passes_an_angle(vane: xr.Dataset) -> No
 def test_commands_find_the_names() -> None:
     case = td.load_case("vsv").replace({"outputs.vane.at.angles": "5 deg"})
     known = key_results_of_case(case)
-    assert {"error_lasting_deg_vane", "error_at_backward_deg_vane_5_deg"} <= known.keys()
+    assert {"error_sustained_deg_vane", "error_at_backward_deg_vane_5_deg"} <= known.keys()
 
 
 def test_a_campaign_ends_at_the_limit_of_an_output() -> None:
