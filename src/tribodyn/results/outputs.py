@@ -80,7 +80,7 @@ _IN_THEIR_UNIT: Final = (
 
 
 def in_output_unit(known: Mapping[str, Variable], units: Any) -> dict[str, Variable]:
-    """Return descriptions of variables, those in units of outputs with the one that all outputs share, if any."""
+    """Return descriptions of variables, those in units of outputs with the unit that all outputs share."""
     shared = sorted({str(unit) for unit in np.asarray(units).ravel()})
     if len(shared) != 1:
         return {**known}

@@ -76,13 +76,17 @@ def written(tables: Example, first: BuilderMethod) -> Iterator[str]:
     named = {method.table for method in METHODS}
     calls = [_call("", _literals({k: v for k, v in tables.items() if k not in (CASE, *named)}))]
     for method, name, keys in _uses(tables, first):
-        ends = iter(keys.get("between", ()))
+        ends = iter(keys.get("between", keys.get("joints", ())))
+        several = ("between", "joints")
         own = [
-            next(ends) if key == "between" else keys[key] if key else name for _, key, _ in method.arguments
+            next(ends, None) if key in several else keys[key] if key else name
+            for _, key, _ in method.arguments
         ]
         filled = {*method.given, *(key for _, key, _ in method.arguments)}
         plain = {key: value for key, value in keys.items() if key not in filled}
-        calls.append(_call(f".{method.name}", [*map(_literal, own), *_literals(plain)]))
+        calls.append(
+            _call(f".{method.name}", [*(_literal(one) for one in own if one is not None), *_literals(plain)])
+        )
     yield ">>> import tribodyn as td"
     yield f">>> drawn = td.Mechanism{calls[0]}"
     yield from (f">>> _ = drawn{call}" for call in calls[1:])
@@ -207,13 +211,9 @@ class Mechanism(Signatures, _CaseTables):
 
 def _adding(method: BuilderMethod) -> Callable[..., Mechanism]:
     """Return a method of the builder."""
-    own = [p for p in method.signature.parameters.values() if p.kind is p.POSITIONAL_OR_KEYWORD]
-    names = inspect.Signature([*own, inspect.Parameter("keys", inspect.Parameter.VAR_KEYWORD)])
 
-    def add(*arguments: Any, **keys: object) -> Mechanism:
-        bound = names.bind(*arguments, **keys)
-        mechanism: Mechanism = bound.args[0]
-        name, values = method.values(*bound.args[1:], **bound.kwargs)
+    def add(mechanism: Mechanism, /, *arguments: Any, **keys: object) -> Mechanism:
+        name, values = method.values(*arguments, **keys)
         fill = mechanism._fill_joint if method.table in OF_JOINT else mechanism._fill
         fill(method, name, values)
         return mechanism

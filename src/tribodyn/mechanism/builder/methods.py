@@ -7,7 +7,7 @@ defaults and meanings stand in one place, the models of a case.
 import inspect
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from pydantic import BaseModel
@@ -17,6 +17,7 @@ from tribodyn.cases.joint_keys import FilmKeys
 from tribodyn.cases.keys import VALUE
 from tribodyn.mechanism.builder.arguments import Argument, arguments_of, parameters_of
 from tribodyn.mechanism.elements import ELEMENTS
+from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
@@ -31,6 +32,13 @@ OF_JOINT: Final = ("clearance", "film")
 """Tables of a joint that have methods of their own."""
 _NAME: Final = ("name", "", "its name, which the case does not have yet")
 _ENDS: Final = (("first", "between", "a body, or ground"), ("second", "between", "another body, or ground"))
+_PLACES: Final = {
+    "between": _ENDS,
+    "joint": (("joint", "joint", "the joint that it acts in"),),
+    "joints": (("first", "joints", "a joint"), ("second", "joints", "another joint")),
+    "body": (("body", "body", "the body that it acts on"),),
+}
+"""Arguments that bodies and joints of elements may be given by, by key."""
 _THAT_JOINT: Final = (("joint", "", "a joint that the mechanism has"),)
 
 
@@ -60,6 +68,9 @@ class BuilderMethod:
         Keys that have no meaning here.
     """
 
+    # One rule of all methods: after the name come bodies or joints, by position or by name; ``between``,
+    # ``joint``, ``joints`` or ``body`` name them as a case file does.
+
     name: str
     does: str
     table: str
@@ -73,33 +84,73 @@ class BuilderMethod:
     @property
     def keywords(self) -> dict[str, Argument]:
         """The keys of its table that a user may give, the needed ones first."""
-        filled = {key for _, key, _ in self.arguments} | {*self.given, *self.without}
-        found = arguments_of(self.keys)
+        own = {key for name, key, _ in self.arguments if key not in self._either or key == name}
+        filled = {*own, *self.given, *self.without}
+        found = {k: replace(v, required=v.required and k not in self._either) for k, v in self._known.items()}
         there = {
             name: one.with_need(name in self.needed) for name, one in found.items() if name not in filled
         }
         return dict(sorted(there.items(), key=lambda item: not item[1].required))
 
     @property
+    def _known(self) -> Mapping[str, Argument]:
+        return arguments_of(self.keys)
+
+    @property
+    def _either(self) -> set[str]:
+        """Keys of an element that its signature shows by position and by name."""
+        return {key for _, key, _ in self.arguments if key} if issubclass(self.keys, ElementKeys) else set()
+
+    @property
     def signature(self) -> inspect.Signature:
         """Its signature, as Python and notebooks show it."""
         kinds, plain = inspect.Parameter, inspect.Parameter.POSITIONAL_OR_KEYWORD
         own = [kinds("self", plain)]
-        own += [kinds(name, plain, annotation="str") for name, _, _ in self.arguments]
+        own += [
+            kinds(name, plain, annotation="str | None", default=None)
+            if key in self._either
+            else kinds(name, plain, annotation="str")
+            for name, key, _ in self.arguments
+        ]
         return inspect.Signature([*own, *parameters_of(self.keywords)], return_annotation="Mechanism")
 
     def values(self, *arguments: str, **keys: object) -> tuple[str, dict[str, object]]:
-        """Return the name of the table and its keys, from the arguments of a call."""
+        """Return the name of the table and its keys, from the arguments of a call.
+
+        Raises
+        ------
+        TypeError
+            There are too many arguments, one is given twice, or one that is needed is missing.
+        """
+        names = [name for name, _, _ in self.arguments]
+        if len(arguments) > len(names):
+            raise TypeError(f"too many positional arguments: {self.name}({', '.join(names)}, key=value, ...)")
+        given: dict[str, Any] = dict(zip(names, arguments, strict=False))
+        of_keys = {key for _, key, _ in self.arguments}
+        for name in names:
+            if name in keys and (name not in of_keys or len(self._places(name)) == 1):
+                if name in given:
+                    raise TypeError(f"multiple values for argument {name!r}")
+                given[name] = keys.pop(name)
         filled: dict[str, Any] = dict(self.given)
-        name = ""
-        for (_, key, _), value in zip(self.arguments, arguments, strict=True):
-            if not key:
-                name = value
-            else:
-                filled[key] = (
-                    [*filled[key], value] if key in filled else [value] if key == "between" else value
-                )
-        return name, {**filled, **keys}
+        for key in filter(None, dict.fromkeys(key for _, key, _ in self.arguments)):
+            places = self._places(key)
+            found = [given[place] for place in places if place in given]
+            if found and key in keys:
+                raise TypeError(f"multiple values for argument {key!r}")
+            if len(found) == len(places) or (found and key == "joints"):
+                filled[key] = found if key in ("between", "joints") else found[0]
+            elif key not in keys:
+                missing = next(place for place in places if place not in given)
+                raise TypeError(f"missing a required argument: {missing!r}")
+        name = next((name for name, key, _ in self.arguments if not key), "")
+        if name and name not in given:
+            raise TypeError(f"missing a required argument: {name!r}")
+        return given.get(name, ""), {**filled, **keys}
+
+    def _places(self, key: str) -> list[str]:
+        """Return the arguments that fill a key."""
+        return [name for name, filled, _ in self.arguments if filled == key]
 
 
 _ARM: Final = {"mass": "1 kg", "centre": "50, 0, 0 mm", "inertia": "1e-3, 1e-3, 1e-3 kg m^2"}
@@ -138,7 +189,9 @@ def _of_element(kind: Any) -> BuilderMethod:
     """Return the method that adds an element of a kind."""
     first = str(kind.__doc__).splitlines()[0]
     tables = tomllib.loads(kind.EXAMPLE)
-    return BuilderMethod(kind.METHOD, f"Add {first[0].lower()}{first[1:]}", kind.TABLE, kind, tables)
+    arguments = [_NAME, *(one for key, ends in _PLACES.items() if key in kind.model_fields for one in ends)]
+    does = f"Add {first[0].lower()}{first[1:]}"
+    return BuilderMethod(kind.METHOD, does, kind.TABLE, kind, tables, tuple(arguments))
 
 
 METHODS: Final = (
