@@ -12,6 +12,7 @@ from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
 from tribodyn.mechanism.results.joint_numbers import BY_JOINT
 from tribodyn.mechanism.results.mechanism_results import BY_MODE, KEY_NUMBERS, KEY_RESULTS
+from tribodyn.mechanism.results.springs import BY_SPRING
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 
@@ -88,7 +89,13 @@ MECHANISM: Final = MechanismDescriptor(
     key_results=KEY_RESULTS,
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
-    by_part={"joints": BY_JOINT, "outputs": BY_OUTPUT, "instants": BY_INSTANT, "modes": BY_MODE},
+    by_part={
+        "joints": BY_JOINT,
+        "springs": BY_SPRING,
+        "outputs": BY_OUTPUT,
+        "instants": BY_INSTANT,
+        "modes": BY_MODE,
+    },
     controls=(
         "parameters.*.value",
         "joints.*.clearance.radial",

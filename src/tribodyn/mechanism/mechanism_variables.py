@@ -19,6 +19,7 @@ AXES: Final = ("x", "y", "z")
 ENTRIES: Final = ("w", *AXES)
 _VECTOR: Final = ("axis",)
 _ELEMENT: Final = (*TIME, "element")
+_SPRING: Final = (*TIME, "spring")
 _CAUSE: Final = (*TIME, "output", "joint", "cause")
 _MODE: Final = (*TIME, "mode")
 _RATIO: Final = (*TIME, "output", "drive")
@@ -141,6 +142,10 @@ VARIABLES: Final[dict[str, Variable]] = {
     "joint": Variable("", "name of the joint", ("joint",), named=True, names="joints"),
     "element": Variable("", "name of the element", ("element",), named=True, names="elements"),
     **OF_ELEMENTS,
+    "spring": Variable("", "name of the spring", ("spring",), named=True, names="springs"),
+    "spring_force": Variable("N", "force of a spring and its damper; it pushes its ends apart", _SPRING),
+    "spring_length": Variable("m", "distance of the ends of a spring", _SPRING),
+    "spring_energy": Variable("J", "energy stored in a spring", _SPRING),
     **OF_OUTPUTS,
     **OF_MODES,
     "surface": Variable("", "joint and surface of it", ("surface",), named=True),

@@ -58,6 +58,7 @@ from tribodyn.mechanism.results.output_columns import (
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.slow_sliding import of_slow_sliding
+from tribodyn.mechanism.results.springs import spring_columns
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives
@@ -303,6 +304,7 @@ class MechanismSystem:
                 **transmitted(self.model, found.couplings),
                 **power_columns(self.model, found.couplings),
                 **temperature_effects.radial_clearances(self.model, run.solution.t),
+                **(spring_columns(self.case, motion_of(found)) if self.case.springs else {}),
                 **of_outputs,
                 **vibrations.columns,
                 **{name: values for name, values in found.whole.items() if name not in _IN_BALANCE},
@@ -393,7 +395,7 @@ class MechanismSystem:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
         if not self.outputs:
             return {}, ()
-        motion = Motion(**{name: found.bodies[name] for name in MOTION})
+        motion = motion_of(found)
         path = DrivePath(run.solution.t, self.case.turn)
         rest = partial(at_rest, self.assembly, path) if self._analysis == "static" else None
         columns, notes = compared(
@@ -443,6 +445,8 @@ class MechanismSystem:
         }
         if self.model.elements:
             parts["element"] = [element.name for element in self.model.elements]
+        if self.case.springs:
+            parts["spring"] = list(self.case.springs)
         parts |= output_coordinates(self.case, self.outputs)
         parts |= vibrations.coordinates
         parts |= film_coordinates(run.problem.data.films, self.model)
@@ -471,6 +475,11 @@ class MechanismSystem:
         """Return the pressure of the films at the frames of the playback; nothing without films."""
         pictures = run.solution.pictures[self._playback(run), self.maps.n_nodes :]
         return film_maps(run.problem.data.films, pictures)
+
+
+def motion_of(found: Observed) -> Motion:
+    """Return the motion of all bodies that was observed."""
+    return Motion(**{name: found.bodies[name] for name in MOTION})
 
 
 _IN_BALANCE: Final = frozenset(term.row for term in TERMS.values())

@@ -185,18 +185,15 @@ class Output:
 
 def outputs_of(case: MechanismCase) -> tuple[Output, ...]:
     """Return the outputs of a case."""
+    return tuple(observing(case, name, keys) for name, keys in case.outputs.items())
+
+
+def observing(case: MechanismCase, name: str, keys: OutputKeys) -> Output:
+    """Return an output of the bodies of a case."""
     numbers = {body: number for number, body in enumerate(case.bodies)}
-    centres = {body: keys.centre for body, keys in case.bodies.items()} | {GROUND: (0.0, 0.0, 0.0)}
-    return tuple(
-        Output(
-            name,
-            keys,
-            numbers[keys.body],
-            numbers.get(keys.reference, -1),
-            np.array([centres[keys.body], centres[keys.reference]]),
-        )
-        for name, keys in case.outputs.items()
-    )
+    centres = {body: one.centre for body, one in case.bodies.items()} | {GROUND: (0.0, 0.0, 0.0)}
+    places = np.array([centres[keys.body], centres[keys.reference]])
+    return Output(name, keys, numbers[keys.body], numbers.get(keys.reference, -1), places)
 
 
 def motion_of(state: FloatArray) -> Motion:

@@ -232,7 +232,10 @@ def layout_of(case: MechanismCase) -> Layout:
     joints = chosen | {*_read_of_joints(case)} | others
     return Layout(
         *counts,
-        _of(BODY, chosen | {*(MOTION if case.outputs or case.run.analysis == "vibrations" else ())}),
+        _of(
+            BODY,
+            chosen | {*(MOTION if case.outputs or case.springs or case.run.analysis == "vibrations" else ())},
+        ),
         _of(COUPLING, joints),
         _of(COUPLING, others),
     )
