@@ -57,6 +57,72 @@ class Accessor:
 
         return summarise(self._dataset)
 
+    @property
+    def numbers(self) -> pd.DataFrame:
+        """The key results as a table: by name, with label, part, value and unit."""
+        import pandas as pd
+
+        from tribodyn.mechanisms.results import known
+
+        summary = self.summary
+        rows = {
+            name: (one.label_in(summary), one.part, summary[name], one.unit)
+            for name, one in known(summary, str(summary.get("kind", ""))).items()
+        }
+        columns = ["label", "part", "value", "unit"]
+        return pd.DataFrame.from_dict(rows, orient="index", columns=columns).rename_axis("name")
+
+    def sel(self, **chosen: str) -> xr.Dataset:
+        """Return the part of a result of joints, bodies, outputs or others by their names.
+
+        Raises
+        ------
+        InputError
+            There is no such part; the message lists those that are there.
+
+        Examples
+        --------
+        >>> result.tribodyn.sel(joint="wrist")  # doctest: +SKIP
+        """
+        for dim, name in chosen.items():
+            if dim not in self._dataset.coords:
+                allowed = [str(one) for one in self._dataset.dims]
+                raise InputError(
+                    f"no such dimension; allowed: {', '.join(allowed)}{meant(dim, allowed)}", key=dim
+                )
+            names = [str(one) for one in self._dataset[dim].values]
+            if str(name) not in names:
+                raise InputError(
+                    f"{as_given(name)}; allowed: {', '.join(names)}{meant(str(name), names)}", key=dim
+                )
+        return self._dataset.sel(chosen)
+
+    def resample(self, step: float) -> xr.Dataset:
+        """Return the variables over time at even times, by straight lines between samples.
+
+        Parameters
+        ----------
+        step
+            Time between samples [s].
+
+        Raises
+        ------
+        InputError
+            The step is not above zero, or longer than the run.
+
+        Examples
+        --------
+        >>> result.tribodyn.resample(1e-3)  # doctest: +SKIP
+        """
+        begin, end = (float(self._dataset["time"][k]) for k in (0, -1))
+        if not 0.0 < step <= end - begin:
+            words = f"given {step:g}; allowed: a time in s, above 0 and at most {end - begin:.4g}"
+            raise InputError(words, key="step")
+        times = begin + step * np.arange(int((end - begin) / step * (1.0 + 1e-12)) + 1)
+        over = [name for name, one in self._dataset.data_vars.items() if "time" in one.dims]
+        once = self._dataset[over].drop_duplicates("time")
+        return once.interp(time=times, kwargs={"fill_value": "extrapolate"}).assign_attrs(self._dataset.attrs)
+
     def to_dataframe(self, *names: str, over: str | None = None) -> pd.DataFrame:
         """Return columns over time as a table, a row for each time, with the unit of each in its header.
 

@@ -20,7 +20,7 @@ _STEPS: Final = (
     (("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)),
     (("mW", 1e-3), ("W", 1.0), ("kW", 1e3), ("MW", 1e6)),
     (("µJ", 1e-6), ("mJ", 1e-3), ("J", 1.0), ("kJ", 1e3)),
-    (("cycles", 1.0), ("10³ cycles", 1e3), ("10⁶ cycles", 1e6), ("10⁹ cycles", 1e9)),
+    (("cycles", 1.0), ("thousand cycles", 1e3), ("million cycles", 1e6)),
 )
 """Units of one quantity with their sizes, the finest first."""
 _FAMILY: Final = {unit: steps for steps in _STEPS for unit, _ in steps}

@@ -41,7 +41,7 @@ def result(failure: str = "") -> xr.Dataset:
     columns["displacement"][:, 2, 1] = 21e-6 * np.sin(turn)
     columns["relative_velocity"] = np.gradient(columns["displacement"], t, axis=0)
     columns["reaction_force"][:, :, 0] = np.outer(np.cos(turn), [900.0, 2000.0, 2700.0, 40.0])
-    columns["reaction_force"][:, :, 1] = np.outer(np.sin(turn), [300.0, 500.0, 400.0, 0.0])
+    columns["reaction_force"][:, :, 1] = np.outer(np.sin(turn), [300.0, 500.0, 0.0, 0.0])
     columns["drive_moment"][:, 0] = 100.0 * np.sin(2.0 * turn)
     columns["pressure_max"][:, 2] = 4e7 * np.cos(turn) ** 2
     columns |= {name: np.full((N, 4), np.nan) for name in ("film_pressure_max", "film_thickness_min")}

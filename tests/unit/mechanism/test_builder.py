@@ -77,3 +77,28 @@ def test_a_notebook_shows_the_case_or_what_is_still_wrong() -> None:
     assert "hinge" in page
     assert "bodies: a mechanism needs a body" in page
     assert "bodies.arm.mass" in drawn.body("arm", centre="0, 0, 0 m", **ARM)._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "keys"),
+    [
+        (("a", "b"), {}),
+        ((), {"joints": ["a", "b"]}),
+        (("a",), {"second": "b"}),
+        ((), {"first": "a", "second": "b"}),
+    ],
+)
+def test_joints_of_an_element_are_given_by_position_or_by_name(arguments, keys) -> None:
+    gear = next(method for method in METHODS if method.name == "gear")
+    assert gear.values("mesh", *arguments, ratio=-2, **keys) == ("mesh", {"joints": ["a", "b"], "ratio": -2})
+
+
+def test_bodies_of_a_joint_are_given_by_position_or_by_name() -> None:
+    hinge = next(method for method in METHODS if method.name == "revolute")
+    filled = hinge.values("hinge", "ground", "arm")
+    assert filled == hinge.values(name="hinge", second="arm", first="ground")
+    assert filled == hinge.values("hinge", between=["ground", "arm"])
+    with pytest.raises(TypeError, match="multiple values"):
+        hinge.values("hinge", "ground", "arm", between=["ground", "arm"])
+    with pytest.raises(TypeError, match="missing a required argument: 'second'"):
+        hinge.values("hinge", "ground")

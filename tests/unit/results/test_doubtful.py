@@ -77,7 +77,7 @@ def test_a_comparison_marks_the_run_whose_numbers_are_doubtful(
         [ComparedRun(*one) for one in results.items()], tmp_path / "page.html"
     ).read_text()
     assert page.count(f"<div>Do not use these numbers: {REASON}.</div>") == 1
-    rows = [row for row in page.split("<tr>") if "Tilt, largest" in row]
+    rows = [row for row in page.split("<tr>") if "Tilt, peak without" in row]
     assert rows[0].count("<td") == 2
     assert rows[0].count('<td class="doubtful">') == 1
     monkeypatch.chdir(tmp_path)
@@ -88,7 +88,7 @@ def test_a_comparison_marks_the_run_whose_numbers_are_doubtful(
     assert main(["compare", "good", "bad"]) == 0
     shown_lines = capsys.readouterr().out.splitlines()
     assert f"Do not use the numbers of bad: {REASON}." in shown_lines
-    tilt = next(line for line in shown_lines if line.startswith("Tilt, largest"))
+    tilt = next(line for line in shown_lines if line.startswith("Tilt, peak without"))
     assert tilt.count("\x1b[2m") == 1
     assert tilt.endswith("\x1b[0m")
 

@@ -94,7 +94,7 @@ def test_a_number_of_a_joint_is_asked_for_by_its_name() -> None:
     crank = td.load_case("slider-crank")
     until = limit("offset_max_um_wrist=30", crank, "--until")
     asked = question(crank, "joints.wrist.clearance.radial", "20..60 um", until)
-    assert asked.key_result.label == "Offset, largest, wrist"
+    assert asked.key_result.label == "Offset, peak, wrist"
     with pytest.raises(InputError, match=r"nearest of .*: offset_max_um_wrist"):
         limit("offset_max_um_wrisd=30", crank, "--until")
 
