@@ -90,7 +90,13 @@ def find_equilibria(
     words = (
         f"forces on all bodies balance to {equilibria.unbalance:.1g} of the loads or better at every position"
     )
-    return replace(found, notes=(words,) if found.t.size else ())
+    notes = [words]
+    if equilibria.middle is not None and assembly.model.case.moves:
+        notes.append(
+            "freedoms that drives leave rest where loads and springs balance: inertia forces along them, such "
+            "as those that lift the balls of a governor, are left out; a dynamic run has them"
+        )
+    return replace(found, notes=tuple(notes) if found.t.size else ())
 
 
 class Middle:

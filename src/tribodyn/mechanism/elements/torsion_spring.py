@@ -30,7 +30,10 @@ torque = { angles = "-60, -20, 20, 60 deg", values = "-3, -0.5, 0.5, 3 N m" }
     )
 
     preload: float = quantity(
-        "0 N m", "torque against a growing angle at angle 0", "assumed", example="2 N m"
+        "0 N m",
+        "torque at angle 0 against a growing angle; below zero it makes the angle grow",
+        "assumed",
+        example="2 N m",
     )
     stiffness: float = quantity("0 N m/rad", "torque over angle", "assumed", ge=0, example="5 N m/rad")
     damping: float = quantity("0 N m s/rad", "torque over its rate", "assumed", ge=0, example="1 N m s/rad")
