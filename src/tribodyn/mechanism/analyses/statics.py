@@ -93,8 +93,8 @@ def find_equilibria(
     notes = [words]
     if equilibria.middle is not None and assembly.model.case.moves:
         notes.append(
-            "freedoms that drives leave rest where loads and springs balance: inertia forces along them, such "
-            "as those that lift the balls of a governor, are left out; a dynamic run has them"
+            "freedoms that drives leave rest where loads and springs balance: inertia forces along them, as "
+            "those that lift the balls of a governor, are left out; a dynamic run has them"
         )
     return replace(found, notes=tuple(notes) if found.t.size else ())
 
