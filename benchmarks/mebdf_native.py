@@ -1,4 +1,4 @@
-"""The MEBDF in compiled code on a benchmark problem, with nothing around it."""
+"""The MEBDF with compiled functions of a benchmark problem: the integration alone, and by ``solve_ivp``."""
 
 from __future__ import annotations
 
@@ -6,46 +6,41 @@ import time
 from functools import cache
 from typing import Any
 
-from benchmarks.problems import Benchmark
-from mebdf.kernels.arrays import copy
-from mebdf.kernels.core import resume
-from mebdf.kernels.jit import kernel
-from mebdf.kernels.phases import FAILED, NEED_F, NEED_JACOBIAN
-from mebdf.kernels.state import HISTORY, JACOBIAN, F, Y, new_state
+import numba as nb
+from scipy.integrate import solve_ivp
+
+from benchmarks.problems import PROBLEMS, Benchmark
+from mebdf import MEBDF
+from mebdf.kernels.state import HISTORY
 
 LONG_ENOUGH = 0.01
 """Least time of a measured call [s]."""
+AT_ONCE = 1000
+"""Steps in compiled code between two looks of Python."""
+_NUMBERS = nb.types.CPointer(nb.float64)
+_SIGNATURE = nb.void(nb.float64, _NUMBERS, _NUMBERS, _NUMBERS)
 
 
 @cache
-def _loop(rhs: Any, jac: Any) -> Any:
-    """Return a compiled function that integrates a problem again and again from the same start."""
+def c_functions(name: str) -> tuple[Any, Any]:
+    """Return right-hand side and Jacobian of a problem as C functions."""
+    rhs, jac, n = PROBLEMS[name].rhs, PROBLEMS[name].jac, PROBLEMS[name].y0.size
 
-    @kernel
-    def run(state):  # type: ignore[no-untyped-def]
-        record, rows, matrices, pivots, mass, places = state
-        numbers, y, f, jacobian = record[0], rows[Y], rows[F], matrices[JACOBIAN]
-        while True:
-            request = resume(record, rows, matrices, pivots, mass, places)
-            if request == NEED_F:
-                rhs(numbers.t_eval, y, f)
-            elif request == NEED_JACOBIAN:
-                jac(numbers.t_eval, y, jacobian)
-            elif request == FAILED:
-                return True
-            elif numbers.t == numbers.t_end:
-                return False
+    @nb.cfunc(_SIGNATURE)
+    def c_rhs(t, y, f, data):  # type: ignore[no-untyped-def]
+        rhs(t, nb.carray(y, n), nb.carray(f, n))
 
-    @kernel
-    def repeated(state, start, repeats):  # type: ignore[no-untyped-def]
-        failed = False
-        for _ in range(repeats):
-            copy(start[0], state.numbers)
-            copy(start[1].reshape(-1), state.rows.reshape(-1))
-            failed = run(state)
-        return failed
+    @nb.cfunc(_SIGNATURE)
+    def c_jac(t, y, jacobian, data):  # type: ignore[no-untyped-def]
+        jac(t, nb.carray(y, n), nb.carray(jacobian, (n, n)))
 
-    return repeated
+    return c_rhs, c_jac
+
+
+def options_of(problem: Benchmark, rtol: float, *, differenced: bool) -> tuple[Any, dict[str, Any]]:
+    """Return the right-hand side and the options of a problem."""
+    rhs, jac = c_functions(problem.name)
+    return rhs, {"rtol": rtol, "atol": problem.atol * rtol, "jac": None if differenced else jac}
 
 
 def mebdf(
@@ -57,29 +52,35 @@ def mebdf(
 ) -> dict[str, Any]:
     """Integrate; return digits, counts and the time of the integration alone [s].
 
-    A call from Python takes some microseconds. Short integrations are repeated within the call until it does
-    not count: for ``at_least`` so long [s].
-    ``differenced`` treats the Jacobian as one that costs evaluations.
+    Short integrations are repeated for ``at_least`` so long [s]. ``differenced`` takes the Jacobian from
+    differences, whose evaluations are not counted.
     """
-    loop = _loop(problem.rhs, problem.jac)
-    state = new_state(0.0, problem.y0, problem.t_end, rtol, problem.atol * rtol, differenced=int(differenced))
-    for name, value in (settings or {}).items():
-        state.numbers["settings"][name] = value
-    start = (state.numbers.copy(), state.rows.copy())
-    loop(state, start, 1)  # compiles
-    repeats, seconds = 1, 0.0
-    while True:
+    rhs, options = options_of(problem, rtol, differenced=differenced)
+    repeats, seconds = 0, 0.0
+    while repeats == 0 or seconds < at_least:
+        solver = MEBDF(rhs, 0.0, problem.y0, problem.t_end, steps_at_once=AT_ONCE, **options)
+        for name, value in (settings or {}).items():
+            solver._state.numbers["settings"][name] = value
         begin = time.thread_time()
-        failed = loop(state, start, repeats)
-        seconds = time.thread_time() - begin
-        if seconds > at_least:
-            break
-        repeats = max(2 * repeats, min(100 * repeats, int(1.2 * repeats * at_least / seconds)))
-    seconds /= repeats
-    more = {"rhs": "n_f", "jac": "n_j", "lu": "n_lu", "solves": "n_solves"}
-    fields = {"steps": "steps", **more, "rejected": "rejected"}
-    counts = {name: state.number(field) for name, field in fields.items()}
-    return {
-        "failed": failed, "digits": problem.digits(state.rows[HISTORY]), **counts, "seconds": seconds,
-        "y": state.rows[HISTORY].copy(),
-    }  # fmt: skip
+        while solver.status == "running":
+            solver.step()
+        seconds += time.thread_time() - begin
+        repeats += 1
+    fields = {"steps": "steps", "rhs": "n_f", "jac": "n_j", "lu": "n_lu", "rejected": "rejected"}
+    counts = {name: solver._state.number(field) for name, field in fields.items()}
+    y = solver._state.rows[HISTORY].copy()
+    failed = solver.status == "failed"
+    return {"failed": failed, "digits": problem.digits(y), **counts, "seconds": seconds / repeats, "y": y}
+
+
+def by_scipy(
+    problem: Benchmark, rtol: float, at_once: int = 1, *, differenced: bool = False
+) -> dict[str, Any]:
+    """Call SciPy's ``solve_ivp``; return digits and the time of the whole call [s]."""
+    rhs, options = options_of(problem, rtol, differenced=differenced)
+    span, repeats, begin = (0.0, problem.t_end), 0, time.thread_time()
+    while repeats == 0 or time.thread_time() - begin < LONG_ENOUGH:
+        solution = solve_ivp(rhs, span, problem.y0, method=MEBDF, steps_at_once=at_once, **options)
+        repeats += 1
+    seconds = (time.thread_time() - begin) / repeats
+    return {"failed": not solution.success, "digits": problem.digits(solution.y[:, -1]), "seconds": seconds}

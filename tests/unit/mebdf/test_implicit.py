@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 sys.path.insert(0, str(Path(__file__).parents[3]))
 from benchmarks.dae_problems import pendulum
 from benchmarks.problems import PROBLEMS
-from mebdf import MEBDF, dae, solve_dae
+from mebdf import MEBDF, dae, solve_dae, solver
 
 
 def solve(fun, t_span, y0, slope, **options):
@@ -240,4 +240,5 @@ def test_the_function_for_implicit_equations_takes_arguments_and_options():
 
 
 def test_the_examples_of_docstrings_run():
-    assert doctest.testmod(dae).failed == 0 < doctest.testmod(dae).attempted
+    for module in (dae, solver):
+        assert doctest.testmod(module).failed == 0 < doctest.testmod(module).attempted

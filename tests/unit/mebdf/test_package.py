@@ -8,6 +8,8 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
+
 import mebdf
 import tribodyn.integrate
 
@@ -35,13 +37,17 @@ def test_the_examples_of_the_readme_run_without_tribodyn() -> None:
     ends = [
         [float(number) for number in line.split()] for line in run(check.join([*blocks, ""])).splitlines()
     ]
-    oscillator, reactions, circuit, pendulum, damper = ends
+    oscillator, reactions, circuit, pendulum, damper, compiled, decays, ball, rod, _ = ends
     # IVP Test Set (Mazzia and Magherini), problem VDPOL, whose time is in units of 1000.
     assert abs(oscillator[0] - 1.706167732170469) < 1e-4
     assert abs(sum(reactions) - 1.0) < 1e-6
     assert circuit[0] < circuit[1] < 3.0
     assert abs(pendulum[0] ** 2 + pendulum[1] ** 2 - 1.0) < 1e-5
     assert abs(damper[1]) < 1.0
+    np.testing.assert_allclose(compiled, oscillator, rtol=1e-5)
+    np.testing.assert_allclose(decays, [np.exp(-2.0), 0.0], atol=1e-6)
+    assert abs(ball[0]) < 1e-8
+    np.testing.assert_allclose(rod, 1.0 - np.arange(1, 201) / 201, atol=1e-5)
 
 
 def test_the_import_is_cheap() -> None:

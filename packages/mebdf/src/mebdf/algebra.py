@@ -13,6 +13,8 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels.phases import NEED_FACTORS, NEED_JACOBIAN, NEED_MAGNITUDE, NEED_SOLUTION
+from mebdf.kernels.state import DELTA, MAGNITUDE, RESIDUAL, MebdfState
 
 ORDERS: Final = ("MMD_AT_PLUS_A", "COLAMD")
 """Orders of columns for SuperLU: good for symmetric patterns, and for any."""
@@ -271,3 +273,20 @@ def is_sparse(matrix: Any) -> bool:
 def _superlu(matrix: Any, order: Any) -> Any:
     """Return the factors of a sparse matrix whose columns SuperLU orders."""
     return splu(matrix, permc_spec=order, diag_pivot_thresh=PIVOT)
+
+
+def answer(request: int, state: MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
+    """Answer a request of the core for a solution."""
+    scaled, rows = state.number("scaled"), state.rows
+    if request == NEED_JACOBIAN:
+        state.numbers["finite"] = algebra.linearise(t, y)
+    elif request == NEED_FACTORS:
+        back = state.number("back")
+        if back:
+            algebra.go_back(to_zero=back == 2 and state.places.size == 0)
+        state.numbers["sign"] = algebra.factorise(scaled)
+        state.numbers["trace_of_j"] = algebra.trace()
+    elif request == NEED_SOLUTION:
+        rows[DELTA] = algebra.solve(rows[RESIDUAL])
+    elif request == NEED_MAGNITUDE:
+        rows[MAGNITUDE] = algebra.magnitude(scaled, y)

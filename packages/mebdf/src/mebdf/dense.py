@@ -8,7 +8,6 @@ import numpy as np
 from scipy.integrate import DenseOutput
 
 from mebdf.arrays import FloatArray
-from mebdf.kernels import state as entry
 
 JUMP: Final = 16.0 * float(np.finfo(np.float64).eps)
 """Length of a jump: SciPy's search for events ends at intervals a quarter as long."""
@@ -23,15 +22,15 @@ class MebdfDenseOutput(DenseOutput):
     ----------
     t_old, t
         Begin and end of the step.
-    state
-        The integration; what is needed of it is copied.
+    step
+        Signed size to which the differences belong.
+    differences
+        At the end of the step, shape (degree + 1, n); they are copied.
     """
 
-    def __init__(self, t_old: float, t: float, state: entry.MebdfState) -> None:
+    def __init__(self, t_old: float, t: float, step: float, differences: FloatArray) -> None:
         super().__init__(t_old, t)
-        degree = state.number("k_last") + 1
-        self._step = state.number("h_last")
-        self._differences = state.rows[entry.HISTORY : entry.HISTORY + degree + 1].copy()
+        self._step, self._differences = step, differences.copy()
 
     def _call_impl(self, t: FloatArray) -> FloatArray:
         """Return the solution at ``t``, shape (n,) or (n, number of times)."""

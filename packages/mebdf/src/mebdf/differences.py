@@ -12,23 +12,11 @@ from scipy.optimize._numdiff import group_columns
 from scipy.sparse import csc_array
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels.ahead import LARGE, LEAST, LOST, SMALL, STRIDE
 
 _EPS: Final = float(np.finfo(np.float64).eps)
-LOST: Final = _EPS**0.875
-"""Change of a rate, relative to it, below which a column is moved further at once: it is all rounding."""
-SMALL: Final = _EPS**0.75
-"""Such a change below which it is moved further the next time."""
-LARGE: Final = _EPS**0.25
-"""Such a change above which it is moved less the next time."""
-STRIDE: Final = 10.0
-"""Factors of a longer and of a shorter move."""
 AT_ONCE: Final = 2**22
 """Values of states evaluated at once: a dense row makes each column a group of its own."""
-LEAST: Final = _EPS**0.5
-"""Shortest move relative to the size of a variable: rounding is the larger error of a shorter one.
-
-Where large rates cancel, a move that is right changes their sum by much.
-"""
 ROUNDINGS: Final = 100.0
 """Shortest move of a variable near zero, in roundings of the size at which its tolerances are equal."""
 SHORT: Final = 1e-7

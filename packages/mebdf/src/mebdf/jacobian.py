@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, Final, NamedTuple
 from warnings import warn
 
@@ -21,12 +22,11 @@ from mebdf.differences import (
     GroupedDifferences,
     typical_sizes,
 )
+from mebdf.kernels.ahead import FIRST
 from mebdf.mass import MassMatrix
 
 Dense = Callable[[float, FloatArray], FloatArray]
 
-FIRST: Final = 32
-"""Evaluation at which it is compared after the start, then at twice as many, and so on: next to no cost."""
 CHANGE: Final = 1e-6
 """Relative change of the state along which it is compared."""
 WRONG: Final = 0.9
@@ -49,8 +49,14 @@ class CheckedJacobian:
         Right-hand side ``fun(t, y)``.
     threshold
         Size of each component below which it is as good as zero, shape (n,).
-    in_trouble
-        Tells whether steps fail so often that a comparison is worth its three evaluations.
+    progress
+        Returns the number of Jacobians so far, and whether steps fail so often that a comparison is worth its
+        three evaluations.
+
+    Attributes
+    ----------
+    is_wrong
+        Whether it turned out to be.
     """
 
     def __init__(
@@ -59,21 +65,22 @@ class CheckedJacobian:
         differences: Dense,
         fun: Dense,
         threshold: FloatArray,
-        in_trouble: Callable[[], bool],
+        progress: Callable[[], tuple[int, bool]],
     ) -> None:
         self._jacobian, self._differences = given, differences
-        self._fun, self._threshold, self._in_trouble = fun, threshold, in_trouble
-        self._signs = np.random.default_rng(0).choice([-1.0, 1.0], threshold.size)
-        self._count, self._next = 0, float(FIRST)
+        self._fun, self._threshold, self._progress = fun, threshold, progress
+        self._signs = _signs(threshold.size)
+        self._next, self.is_wrong = float(FIRST), False
 
     def __call__(self, t: float, y: FloatArray) -> FloatArray:
         """Return the Jacobian."""
-        self._count += 1
         matrix = self._jacobian(t, y)
-        if self._count > 1 and (self._count < self._next or not self._in_trouble()):
+        count, in_trouble = self._progress()
+        if count > 1 and (count < self._next or not in_trouble):
             return matrix
-        self._next = max(self._next, 2.0 * self._count)
-        if not self._is_wrong(matrix, t, y):
+        self._next = max(self._next, 2.0 * count)
+        self.is_wrong = self._contradicts(matrix, t, y)
+        if not self.is_wrong:
             return matrix
         warn(
             f"`jac` is not the derivative of `fun` at t = {t:g}; finite differences are used from here on.",
@@ -83,7 +90,7 @@ class CheckedJacobian:
         self._jacobian, self._next = self._differences, np.inf
         return self._differences(t, y)
 
-    def _is_wrong(self, matrix: FloatArray, t: float, y: FloatArray) -> bool:
+    def _contradicts(self, matrix: FloatArray, t: float, y: FloatArray) -> bool:
         """Compare on both sides, since a kink may lie on one of them."""
         f = self._fun(t, y)
         return all(self._differs(matrix, t, y, f, side) for side in (CHANGE, -CHANGE))
@@ -93,6 +100,11 @@ class CheckedJacobian:
         found, expected = self._fun(t, y + change) - f, matrix @ change
         larger = max(np.linalg.norm(found), np.linalg.norm(expected))
         return bool(np.linalg.norm(found - expected) > max(WRONG * larger, NOISE * np.linalg.norm(f)))
+
+
+@cache
+def _signs(n: int) -> FloatArray:
+    return np.random.default_rng(0).choice([-1.0, 1.0], n)
 
 
 LARGEST_IN_CORE: Final = 64
@@ -145,7 +157,7 @@ def make_jacobian(
     bands: Bands | None,
     tolerances: tuple[FloatArray, FloatArray],
     mass: MassMatrix | None,
-    in_trouble: Callable[[], bool],
+    progress: Callable[[], tuple[int, bool]],
 ) -> Linear:
     """Return the Jacobian and who solves with it.
 
@@ -163,8 +175,8 @@ def make_jacobian(
         Relative and absolute tolerance of each component, shape (n,) each.
     mass
         Mass matrix, ``None`` for the unit matrix.
-    in_trouble
-        Tells whether a Jacobian that was given should be compared with the right-hand side.
+    progress
+        As for `CheckedJacobian`.
     """
     n = solver.n
     rtol, atol = tolerances
@@ -176,7 +188,7 @@ def make_jacobian(
             return given
         differences = _differenced(solver, DenseDifferences(sizes), mass)
         return given._replace(
-            jacobian=CheckedJacobian(given.jacobian, differences, solver.fun_single, atol, in_trouble)
+            jacobian=CheckedJacobian(given.jacobian, differences, solver.fun_single, atol, progress)
         )
 
     if bands is not None and sparsity is not None:

@@ -54,7 +54,7 @@ def reason(
             if state.number("cause") == phases.NEWTON
             else "the error stayed above the tolerance"
         )
-        return f"{text}; {cause}, worst in {names[worst]}"
+        return f"{text}; {cause}, worst in {names[worst]}{_cure(state, names)}"
     newest = state.rows[entry.HISTORY + state.number("k_last") + 1]
     fastest = int(np.argmax(np.abs(newest * state.rows[entry.WEIGHT])))
     return f"{text}; the solution changes fastest in {names[fastest]}"
@@ -76,3 +76,14 @@ def _undetermined(state: MebdfState, names: Sequence[str]) -> str:
     direction = np.linalg.svd(matrix / np.abs(matrix).max())[2][-1]
     name = names[int(np.argmax(np.abs(direction)))]
     return f": the equations do not determine {name}; see to them, the mass matrix and the index"
+
+
+def _cure(state: MebdfState, names: Sequence[str]) -> str:
+    """Return, in words, what helps where the error test of an algebraic variable failed."""
+    worst, n = state.number("worst"), state.rows.shape[1]
+    if state.number("cause") != phases.ERROR_TEST or not state.rows[entry.TESTED, worst]:
+        return ""
+    size = state.places[n]
+    if worst in state.places[n + 1 : n + 1 + size][state.mass[:size] != 0.0]:
+        return ""
+    return f"; if {names[worst]} jumps, `test_algebraic=False` leaves it out of the error test"

@@ -8,9 +8,9 @@ from warnings import warn
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import DenseOutput, OdeSolver
+from scipy.integrate import OdeSolver
 
-from mebdf.algebra import Algebra
+from mebdf.algebra import answer
 from mebdf.arrays import FloatArray
 from mebdf.checks import (
     LARGEST_ATOL,
@@ -28,25 +28,17 @@ from mebdf.checks import (
 )
 from mebdf.consistent import consistent
 from mebdf.dense import JumpDenseOutput, MebdfDenseOutput, end_of_jump
-from mebdf.differences import plain_jacobian
+from mebdf.differences import plain_jacobian, typical_sizes
 from mebdf.implicit import ImplicitFull, Residual, fill_mass, mass_at_start
 from mebdf.index import check_index
-from mebdf.jacobian import LARGEST_IN_CORE, Linear, make_jacobian
+from mebdf.jacobian import LARGEST_IN_CORE, CheckedJacobian, Linear, make_jacobian
 from mebdf.kernels import state as entry
 from mebdf.kernels.coefficients import MAX_K
 from mebdf.kernels.core import resume
-from mebdf.kernels.phases import (
-    ERROR_TEST,
-    FAILED,
-    NEED_F,
-    NEED_FACTORS,
-    NEED_JACOBIAN,
-    NEED_MAGNITUDE,
-    NEED_SOLUTION,
-    STEP_ACCEPTED,
-)
+from mebdf.kernels.phases import FAILED, NEED_F, NEED_JACOBIAN, STEP_ACCEPTED
 from mebdf.kernels.state import HISTORY, F, Y, new_state
 from mebdf.mass import LARGEST, MassMatrix, read_mass, split, with_index
+from mebdf.native import Ahead, Native, Step, native
 from mebdf.reasons import reason
 
 ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
@@ -66,7 +58,8 @@ class MEBDF(OdeSolver):
     Parameters
     ----------
     fun
-        ``fun(t, y)``: right-hand side, shape (n,); with ``vectorized`` also (n, m) of (n, m).
+        ``fun(t, y)``: right-hand side, shape (n,), in Python or compiled, see below; with ``vectorized`` also
+        (n, m) of (n, m).
     t0, t_bound
         Start and end; backward in time if ``t_bound < t0``.
     y0
@@ -107,6 +100,33 @@ class MEBDF(OdeSolver):
         and ∂F/∂y', both dense.
     max_order
         Largest order, 2 to 8.
+    data
+        Numbers, handed on: ``fun(t, y, data)`` and ``jac(t, y, data)`` are called where they are given.
+    steps_at_once
+        Steps that one step of this class covers where ``fun`` is compiled. SciPy sees the last one of each:
+        others are not in ``solution.t``, and an event that occurs twice in between is missed.
+
+    Attributes
+    ----------
+    in_python
+        Which of ``fun`` and ``jac`` run in Python.
+
+    Notes
+    -----
+    Functions of numba, made by ``njit`` or ``cfunc``, and `scipy.LowLevelCallable` are called without Python
+    in between. A C function is ``void f(double t, double *y, double *out, double *data)``; it fills ``out``,
+    a Jacobian row by row, over zeros.
+
+    Examples
+    --------
+    Van der Pol's oscillator, with a stiffness of 1000:
+
+    >>> from mebdf import MEBDF
+    >>> from scipy.integrate import solve_ivp
+    >>> oscillator = lambda t, y: [y[1], 1e3 * (1.0 - y[0] ** 2) * y[1] - y[0]]
+    >>> solution = solve_ivp(oscillator, (0.0, 2000.0), [2.0, 0.0], method=MEBDF, rtol=1e-6, atol=1e-9)
+    >>> print(f"{solution.y[0, -1]:.4f}")
+    1.7062
 
     References
     ----------
@@ -135,39 +155,47 @@ class MEBDF(OdeSolver):
         breakpoints: ArrayLike = (),
         slope: ArrayLike | None = None,
         max_order: int = MAX_K + 1,
+        data: ArrayLike | None = None,
+        steps_at_once: int = 1,
         **extraneous: Any,
     ) -> None:
         warn_extraneous(extraneous)
         span(t0, t_bound)
         self._residual: Residual | None = None
+        n, widths = np.size(y0), bands(lband, uband, np.size(y0))
         if slope is not None:
-            if any(option is not None for option in (mass, jac_sparsity, lband, uband)) or vectorized:
+            if any(option is not None for option in (mass, jac_sparsity, widths, data)) or vectorized:
                 raise ValueError(
-                    "`slope` excludes `mass`, `jac_sparsity`, `lband`, `uband` and `vectorized`."
+                    "`slope` excludes `mass`, `jac_sparsity`, `lband`, `uband`, `data` and `vectorized`."
                 )
-            fun = self._residual = Residual(fun, slope, jac, np.size(y0))
+            fun = self._residual = Residual(fun, slope, jac, n)
+        else:
+            numbers = None if data is None else np.array(data, dtype=np.float64).ravel()
+            fun = native(fun, (n,), (t0, y0), numbers)
+            jac = native(jac, (n if widths is None else sum(widths) + 1, n), (t0, y0), numbers)
+        compiled = isinstance(fun, Native)
         # Functions may write into the state that they are given.
-        super().__init__(lambda t, y: fun(t, y.copy()), t0, y0, t_bound, vectorized)
-        self.max_step = largest_step(max_step)
-        self.rtol, self.atol = tolerances(rtol, atol, self.n)
+        super().__init__(lambda t, y: fun(t, y.copy()), t0, y0, t_bound, vectorized and not compiled)
+        self.max_step, (self.rtol, self.atol) = largest_step(max_step), tolerances(rtol, atol, self.n)
         resolved(self.y, self.rtol, self.atol)
         self._sizes = sizes(self.y, self.rtol, self.atol)
         self._index, self._test_algebraic = index, test_algebraic
         self._mass = None if self._residual else read_mass(mass, index, test_algebraic, self.n)
         self._names = [f"component {i}" for i in range(self.n)]
         self._ends = [*inner_times(breakpoints, self.t, self.t_bound), float(self.t_bound)]
+        if compiled and jac is None and n <= LARGEST_IN_CORE:
+            jac_sparsity = widths = None  # compiled code takes differences column by column
         if self._residual:
             self._jacobian, self._algebra, evaluations = self._implicit_jacobian(self._residual)
         else:
             self._jacobian, self._algebra, evaluations = make_jacobian(
-                self,
-                jac,
-                jac_sparsity,
-                bands(lband, uband, self.n),
-                (self.rtol, self._sizes),
-                self._mass,
-                self._in_trouble,
+                self, jac, jac_sparsity, widths, (self.rtol, self._sizes), self._mass, self._progress
             )
+        plain = callable(jac) and (widths is not None or not isinstance(jac, Native))
+        self.in_python = (() if compiled else ("fun",)) + (("jac",) if plain else ())
+        if compiled and plain:
+            warn("`jac` runs in Python, for `fun` alone is compiled or `jac` gives diagonals.", stacklevel=2)
+        self._ahead = self._compiled_loop(fun, jac, steps_at_once) if compiled else None
         self._options: dict[str, Any] = {
             "max_step": self.max_step,
             "largest_k": order(max_order, MAX_K + 1) - 1,
@@ -182,6 +210,17 @@ class MEBDF(OdeSolver):
         self._before_jump: FloatArray | None = None
         self._state = self._new_state(starting_step(first_step, t0, t_bound))
 
+    def _compiled_loop(self, fun: Native, jac: Any, at_once: int) -> Ahead:
+        """Return the loop over steps for a compiled function."""
+        algebraic = np.zeros(self.n, dtype=bool) if self._mass is None else self._mass.algebraic_equations
+        typical = typical_sizes(self.rtol, self._sizes, algebraic=bool(algebraic.any()))
+        inside = self._algebra is None and "jac" not in self.in_python
+        jacobian = jac if isinstance(jac, Native) and inside else None
+        differenced = jac is None and inside
+        return Ahead(
+            fun, jacobian, differenced=differenced, typical=typical, algebraic=algebraic, at_once=at_once
+        )
+
     def _new_state(self, first_step: float) -> entry.MebdfState:
         """Begin at the present time, up to the next breakpoint or the end."""
         before, mass, warning = self.y, None, ""
@@ -194,6 +233,9 @@ class MEBDF(OdeSolver):
             warn(warning, stacklevel=4)
             self._jump = before
         t, end, atol = float(self.t), self._ends[0], np.minimum(self.atol, LARGEST_ATOL)
+        if self._ahead:
+            kink = end if len(self._ends) > 1 else np.inf
+            self._ahead.lead_to(kink, float(np.nextafter(kink, t)))
         return new_state(t, self.y, end, self.rtol, atol, first_step=first_step, mass=mass, **self._options)
 
     def _consistent(
@@ -279,45 +321,37 @@ class MEBDF(OdeSolver):
             self.t = end_of_jump(float(self.t), self._ends[0])
             return True, None
         self._before_jump = None
-        request = self._core_step()
-        while request == STEP_ACCEPTED and self.direction * (self._state.number("t") - self.t) <= 0.0:
-            request = self._core_step()  # inside the jump that was the last step
-        state, before = self._state, self._before
-        self.nfev = before[0] + state.number("n_f")
-        self.njev = before[1] + state.number("n_j")
-        self.nlu = before[2] + state.number("n_lu")
-        if request == FAILED:
-            return False, reason(state, self._names, self._entry_not_finite) + self._cure()
-        self.t, self.y = state.number("t"), state.rows[HISTORY].copy()
+        step = self._next_step()
+        while step is not None and self.direction * (step[0] - self.t) <= 0.0:
+            step = self._next_step()  # inside the jump that was the last step
+        before = self._before
+        if step is None:
+            return False, reason(self._state, self._names, self._entry_not_finite)
+        self.t, self.y, n_f, n_j, n_lu = step
+        self.nfev, self.njev, self.nlu = before[0] + n_f, before[1] + n_j, before[2] + n_lu
         return True, None
 
-    def _cure(self) -> str:
-        """Return, in words, what helps where the error test of an algebraic variable failed."""
-        state, worst = self._state, self._state.number("worst")
-        if state.number("cause") != ERROR_TEST or worst < 0 or not state.rows[entry.TESTED, worst]:
-            return ""
-        size = state.places[self.n]
-        columns = state.places[self.n + 1 : self.n + 1 + size]
-        if worst in columns[state.mass[:size] != 0.0]:
-            return ""
-        return f"; if {self._names[worst]} jumps, `test_algebraic=False` leaves it out of the error test"
+    def _next_step(self) -> Step | None:
+        """Return the next accepted step, ``None`` where the core has given up."""
+        if self._ahead:
+            return self._ahead.step(self._state, self._answer)
+        if self._core_step() == FAILED:
+            return None
+        number = self._state.number
+        return number("t"), self._state.rows[HISTORY].copy(), number("n_f"), number("n_j"), number("n_lu")
 
     def _core_step(self) -> int:
         """Evaluate for the core until it has accepted a step or given up; return which."""
-        state, fun = self._state, self.fun_single
-        rows = state.rows
-        kink = self._ends[0] if len(self._ends) > 1 else None
+        state, fun, rows = self._state, self.fun_single, self._state.rows
         request: int
         while (request := resume(*state)) not in ENDS_OF_STEP:
-            t, y = state.number("t_eval"), rows[Y]
-            if t == kink:
-                t = float(np.nextafter(t, self.t))  # on the near side of the breakpoint
             if request != NEED_F:
-                self._answer(request, t, y)
+                self._answer(request)
                 continue
+            t = self._where()
             if self._residual:
                 self._residual.move(state)
-            f = fun(t, y)
+            f = fun(t, rows[Y])
             if f.size != self.n:  # one number will do for one equation, but not for several
                 raise ValueError(
                     f"`fun` is expected to return shape ({self.n},), but returned {f.shape} at t = {t:g}."
@@ -325,20 +359,28 @@ class MEBDF(OdeSolver):
             rows[F] = f
         return request
 
-    def _answer(self, request: int, t: float, y: FloatArray) -> None:
+    def _where(self) -> float:
+        """Return the time of an evaluation: on the near side of the breakpoint where it is at one."""
+        t: float = self._state.number("t_eval")
+        return float(np.nextafter(t, self.t)) if len(self._ends) > 1 and t == self._ends[0] else t
+
+    def _answer(self, request: int) -> None:
         """Answer a request of the core for a derivative or a solution."""
-        state, algebra = self._state, self._algebra
+        state, algebra, t = self._state, self._algebra, self._where()
+        y = state.rows[Y]
         if algebra is None:
             state.matrices[entry.JACOBIAN] = self._jacobian(t, y)
+            if self._ahead and isinstance(self._jacobian, CheckedJacobian) and self._jacobian.is_wrong:
+                self._ahead.difference()
             return
-        _solve(request, state, algebra, t, y)
+        answer(request, state, algebra, t, y)
         if isinstance(algebra, ImplicitFull) and request == NEED_JACOBIAN:
             fill_mass(state.mass, state.places, algebra.dense_mass)
 
-    def _in_trouble(self) -> bool:
-        """Tell whether the iteration matrix is renewed nearly as often as a step succeeds."""
-        state = self._state
-        return bool(state.number("n_lu") > RENEWED * state.number("steps"))
+    def _progress(self) -> tuple[int, bool]:
+        """Return the Jacobians so far, and whether matrices are renewed nearly as often as steps succeed."""
+        number = self._state.number
+        return self._before[1] + number("n_j"), number("n_lu") > RENEWED * number("steps")
 
     def _entry_not_finite(self, state: entry.MebdfState) -> tuple[int, int]:
         """Return row and column of the first entry of the Jacobian that is not finite."""
@@ -347,25 +389,12 @@ class MEBDF(OdeSolver):
         row, column = np.argwhere(~np.isfinite(state.matrices[entry.JACOBIAN]))[0]
         return int(row), int(column)
 
-    def _dense_output_impl(self) -> DenseOutput:
+    def _dense_output_impl(self) -> Callable[..., FloatArray]:
         """Return the polynomial of the last step, or the jump that was it."""
         if self._before_jump is not None:
             return JumpDenseOutput(self.t_old, self.t, self._before_jump, self.y.copy())
-        return MebdfDenseOutput(self.t_old, self.t, self._state)
-
-
-def _solve(request: int, state: entry.MebdfState, algebra: Algebra, t: float, y: FloatArray) -> None:
-    """Answer a request of the core for a solution."""
-    scaled, rows = state.number("scaled"), state.rows
-    if request == NEED_JACOBIAN:
-        state.numbers["finite"] = algebra.linearise(t, y)
-    elif request == NEED_FACTORS:
-        back = state.number("back")
-        if back:
-            algebra.go_back(to_zero=back == 2 and state.places.size == 0)
-        state.numbers["sign"] = algebra.factorise(scaled)
-        state.numbers["trace_of_j"] = algebra.trace()
-    elif request == NEED_SOLUTION:
-        rows[entry.DELTA] = algebra.solve(rows[entry.RESIDUAL])
-    elif request == NEED_MAGNITUDE:
-        rows[entry.MAGNITUDE] = algebra.magnitude(scaled, y)
+        if self._ahead:
+            return self._ahead.dense(self.t_old)
+        number = self._state.number
+        differences = self._state.rows[HISTORY : HISTORY + number("k_last") + 2]
+        return MebdfDenseOutput(self.t_old, self.t, number("h_last"), differences)

@@ -70,8 +70,7 @@ class Array:
             raise _misfit(value, self)
         if not value.flags.carray:
             raise TypeError("an array is not contiguous, not aligned or must not be written to")
-        address = value.__array_interface__["data"][0]
-        return (0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
+        return (0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides)
 
     def __str__(self) -> str:
         return f"{_fields(self.dtype)}[{self.ndim}]"
@@ -93,7 +92,7 @@ class One:
         if not isinstance(value, np.void) or value.dtype != self.dtype:
             raise _misfit(value, self)
         # Its own memory: the interface of a scalar is that of a copy.
-        return (np.frombuffer(value, np.uint8).__array_interface__["data"][0],)
+        return (np.frombuffer(value, np.uint8).ctypes.data,)
 
     def __str__(self) -> str:
         return _fields(self.dtype)

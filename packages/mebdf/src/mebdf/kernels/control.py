@@ -31,12 +31,6 @@ VAIN = 4
 """Trouble by a failure of Newton's iteration with a new Jacobian; a step takes one away."""
 TROUBLE = 3 * VAIN
 """Trouble in which a stage looks between two values. More there is only after a stage has ended there."""
-LARGER_CHANGE = 30.0
-"""Largest distance of stage 2 from its extrapolation over that of stage 1."""
-NO_CHANGE = 1.0e-3
-"""Distance from the extrapolation, as an error in units of the tolerance, that stage 1 is given at least."""
-FAILED_NEWTON = 0.25
-"""Factor of the step when Newton's iteration fails although the Jacobian is new."""
 
 
 @inlined
@@ -66,7 +60,9 @@ def error_of(state: Numbers, rows: FloatArray, row: int, weight: int) -> float:
 @inlined
 def largest_error(state: Numbers) -> float:
     """Return the largest distance with which the present stage 1 or 2 leads to the next one."""
-    return 1.0 if state.stage == 1 else LARGER_CHANGE * max(state.error, NO_CHANGE)
+    return (
+        1.0 if state.stage == 1 else state.settings.larger_change * max(state.error, state.settings.no_change)
+    )
 
 
 @inlined
@@ -164,7 +160,7 @@ def newton_failed(state: Numbers, rows: FloatArray, massive: bool) -> None:
         state.wary = min(2 * state.wary + CAUTION, MOST_CAUTION)
         state.vain += 1
         state.trouble = max(state.trouble, min(state.trouble + VAIN, TROUBLE))
-        reject(state, rows, FAILED_NEWTON, at.DELTA, at.WEIGHT)
+        reject(state, rows, state.settings.failed_newton, at.DELTA, at.WEIGHT)
         if not massive:
             return
         state.ahead = 1 - state.ahead

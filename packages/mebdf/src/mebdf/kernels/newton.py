@@ -285,6 +285,9 @@ def finish_stage(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDA
     elif stage == 2:
         _keep(state, rows, at.Y_2, at.F_2)
         if state.fixed == 0 and not _goes_on(state, rows, weight):
+            if places.size > 0 and state.error > state.settings.straight:
+                reject(state, rows, 0.5, at.STAGE_HISTORY + state.k + 1, weight)
+                return
             _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
             state.phase = ACCEPT
     else:
@@ -301,7 +304,7 @@ def _goes_on(state: Numbers, rows: FloatArray, weight: int) -> bool:
     """Tell whether stage 2, which has no error test, goes on as stage 1 did.
 
     Beside a jump a stage may have a solution on either side. The extended formula would take the difference
-    of their slopes for a derivative. The step is then that of stage 1, which has passed its test.
+    of their slopes for a derivative. The step is then that of stage 1, which has passed its test, or shorter.
     """
     return error_of(state, rows, at.Y_2, weight) <= largest_error(state)
 

@@ -110,6 +110,15 @@ class Settings:
     """Error, in units of the tolerance, above which the step is shortened before it fails."""
     tight: float = 0.3
     """Share of the tolerances that the method uses: errors of steps add up."""
+    larger_change: float = 30.0
+    """Largest distance of stage 2 from its extrapolation over that of stage 1."""
+    no_change: float = 1.0e-3
+    """Error of stage 1, in units of the tolerance, that stage 2 is compared with at least."""
+    straight: float = 1.0e-4
+    """Error of stage 1, in units of the tolerance, up to which a step may end with it where there is a mass
+    matrix: its error is that of a lower order, which no test has counted. Without one nothing is gained."""
+    failed_newton: float = 0.25
+    """Factor of the step when Newton's iteration fails although the Jacobian is new."""
     doubtful: float = 10.0
     """Residual of the formula, in units of the tolerance, that a small correction may not leave."""
     tiny: float = 0.02
