@@ -17,6 +17,8 @@ LONG_ENOUGH = 0.01
 """Least time of a measured call [s]."""
 AT_ONCE = 1000
 """Steps in compiled code between two looks of Python."""
+MOST_CALLS = 10**7
+"""Evaluations after which a run is ended as failed."""
 _NUMBERS = nb.types.CPointer(nb.float64)
 _SIGNATURE = nb.void(nb.float64, _NUMBERS, _NUMBERS, _NUMBERS)
 
@@ -62,14 +64,14 @@ def mebdf(
         for name, value in (settings or {}).items():
             solver._state.numbers["settings"][name] = value
         begin = time.thread_time()
-        while solver.status == "running":
+        while solver.status == "running" and solver.nfev < MOST_CALLS:
             solver.step()
         seconds += time.thread_time() - begin
         repeats += 1
     fields = {"steps": "steps", "rhs": "n_f", "jac": "n_j", "lu": "n_lu", "rejected": "rejected"}
     counts = {name: solver._state.number(field) for name, field in fields.items()}
     y = solver._state.rows[HISTORY].copy()
-    failed = solver.status == "failed"
+    failed = solver.status != "finished"
     return {"failed": failed, "digits": problem.digits(y), **counts, "seconds": seconds / repeats, "y": y}
 
 
