@@ -82,12 +82,12 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 NUMBERS := docs/_static/generated/numbers.json
-pages: $(VENV)/.docs docs/_build/drawn/measured
-	$(BIN)/python docs/fill.py --numbers $(NUMBERS)
+pages: $(VENV)/.docs $(addprefix docs/_build/drawn/,measured validation bem mechanism_gallery)
+	$(BIN)/python docs/fill.py --numbers $(NUMBERS) --made docs/_static/generated
 
 docs: $(VENV)/.docs
 	$(MAKE) --jobs 2 $(DRAWN) docs/_build/unread
-	$(BIN)/python docs/fill.py --check --numbers $(NUMBERS)
+	$(BIN)/python docs/fill.py --check --numbers $(NUMBERS) --made docs/_static/generated
 	$(BIN)/sphinx-build -W --keep-going -j 2 -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 

@@ -1,10 +1,11 @@
 """Write tables and measured numbers into the pages of the manual, or name the pages that differ.
 
-python docs/fill.py [--numbers numbers.json] [--check]
+python docs/fill.py [--numbers numbers.json] [--made folder] [--check]
 
 A page is complete as a file: what a list of the program, a stored measurement or a run gives stands in it,
 between two comments. ``<!-- table: NAME -->`` and ``<!-- end -->`` enclose a table of :mod:`tables`,
-``<!--= NAME -->`` and ``<!--/-->`` a number that ``docs/plots/measured.py`` measures.
+``<!--= NAME -->`` and ``<!--/-->`` a number that ``docs/plots/measured.py`` measures, and
+``<!-- made: FILE -->`` and ``<!-- end -->`` the text of a file that a script of ``docs/plots`` writes.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from typing import Final
 DOCS: Final = Path(__file__).parent
 PAGES: Final = (DOCS.parent / "README.md", DOCS.parent / "packages/mebdf/README.md", *DOCS.rglob("*.md"))
 TABLE: Final = re.compile(r"(<!-- table: ([^>]+?) -->\n).*?(<!-- end -->)", re.DOTALL)
+MADE: Final = re.compile(r"(<!-- made: ([^>]+?) -->\n).*?(<!-- end -->)", re.DOTALL)
+IMAGE: Final = re.compile(r"(!\[[^\]]*\]\()([^/)]+\))")
 NUMBER: Final = re.compile(r"(<!--= ([^>]+?) -->)(.*?)(<!--/-->)")
 _DIGITS: Final = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
@@ -35,6 +38,21 @@ def filled(text: str, numbers: Mapping[str, str]) -> str:
     """Return a page with its tables made anew, and the numbers that are given."""
     text = TABLE.sub(lambda found: f"{found[1]}\n{_lines(found[2])}\n\n{found[3]}", text)
     return NUMBER.sub(lambda found: _number(found, numbers), text)
+
+
+def with_made(page: Path, text: str, folder: Path) -> str:
+    """Return a page with the texts that scripts have written into a folder."""
+
+    def put(found: re.Match[str]) -> str:
+        file = folder / found[2]
+        if not file.exists():
+            return found[0]
+        place = f"{'../' * (len(page.relative_to(DOCS).parts) - 1)}_static/generated/{Path(found[2]).parent}/"
+        new = IMAGE.sub(rf"\g<1>{place}\g<2>", file.read_text(encoding="utf-8"))
+        new = f"{found[1]}\n{new.strip()}\n\n{found[3]}"
+        return found[0] if alike(found[0], new) else new
+
+    return MADE.sub(put, text)
 
 
 def _lines(name: str) -> str:
@@ -69,13 +87,14 @@ def main() -> int:
     """Fill the pages, or only compare them."""
     parser = ArgumentParser(description=__doc__.partition("\n")[0] if __doc__ else None)
     parser.add_argument("--numbers", type=Path, help="from docs/plots/measured.py")
+    parser.add_argument("--made", type=Path, default=DOCS, help="where scripts of docs/plots have drawn")
     parser.add_argument("--check", action="store_true", help="change nothing; fail where a page differs")
     args = parser.parse_args()
     numbers = json.loads(args.numbers.read_text(encoding="utf-8")) if args.numbers else {}
     different = []
     for page in pages():
         text = page.read_text(encoding="utf-8")
-        new = filled(text, numbers)
+        new = with_made(page, filled(text, numbers), args.made)
         if new != text:
             different.append(page)
             if not args.check:

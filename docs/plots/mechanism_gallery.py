@@ -16,9 +16,10 @@ import matplotlib.pyplot as plt
 import tribodyn as td
 from tribodyn.mechanism.descriptor import GALLERY, Template
 from tribodyn.mechanisms.results import known, summarise
-from tribodyn.views.numbers import in_words
+from tribodyn.views.numbers import fitting, in_words
 
 FENCE: Final = "```"
+SOURCE: Final = Path(__file__).parents[2] / "src" / "tribodyn" / "mechanism"
 
 
 def section(name: str, template: Template, answers: dict[str, str]) -> Iterator[str]:
@@ -33,7 +34,10 @@ def section(name: str, template: Template, answers: dict[str, str]) -> Iterator[
     yield from (f"    tribodyn new {name}", f"    tribodyn run {name}.toml", "")
     yield from ("| key result | value |", "|---|---|")
     yield from (f"| {label} | {value} |" for label, value in answers.items())
-    yield from ("", f":::{{dropdown}} {name}.toml", f"{FENCE}toml", template.text.rstrip(), FENCE, ":::", "")
+    folder = next(one for one in ("templates", "built_in") if (SOURCE / one / f"{name}.toml").exists())
+    file = f"../../src/tribodyn/mechanism/{folder}/{name}.toml"
+    shown = f"{FENCE}{{literalinclude}} {file}", ":language: toml", FENCE
+    yield from ("", f":::{{dropdown}} {name}.toml", *shown, ":::", "")
 
 
 def answered(name: str, template: Template, target: Path) -> list[str]:
@@ -46,10 +50,10 @@ def answered(name: str, template: Template, target: Path) -> list[str]:
     plt.close("all")
     summary = summarise(result)
     found = known(template.results, "mechanism")
-    answers = {
-        found[key].label_in(summary): f"{in_words(summary[key], found[key].digits)} {found[key].unit}"
-        for key in template.results
-    }
+    answers = {}
+    for key in template.results:
+        unit, factor = fitting(found[key].unit, [summary[key]])
+        answers[found[key].label_in(summary)] = f"{in_words(summary[key] * factor, found[key].digits)} {unit}"
     return list(section(name, template, answers))
 
 

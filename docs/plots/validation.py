@@ -1,4 +1,4 @@
-"""Compute every validation set: a page and a plot each, the table of all sets, the register of predictions.
+"""Compute every validation set: a page and a plot each, and the table of all sets.
 
 python docs/plots/validation.py OUTPUT_DIRECTORY
 """
@@ -9,8 +9,7 @@ import sys
 from pathlib import Path
 
 from tribodyn.validation.catalogue import chosen
-from tribodyn.validation.predictions import register
-from tribodyn.validation.report import Judged, predictions_table, sets_table
+from tribodyn.validation.report import Judged, sets_table
 from tribodyn.validation.save import save
 
 
@@ -21,7 +20,6 @@ def main() -> None:
     judged = [Judged(one, one.run()) for one in chosen([])]
     save(judged, target)
     (target / "table_of_sets.md").write_text("\n".join(sets_table(judged)) + "\n", encoding="utf-8")
-    (target / "predictions.md").write_text("\n".join(predictions_table(register())) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

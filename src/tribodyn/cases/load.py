@@ -297,6 +297,18 @@ def _other_program(source: str, text: str = "") -> str:
     return f"this is {kind}; {words}" if kind else ""
 
 
+def _in_braces(error: str) -> str:
+    """Return the message on a table in braces that is continued elsewhere; empty for any other error."""
+    if not error.startswith("Cannot declare ("):
+        return ""
+    *above, last = re.findall(r"'([^']*)'", error)
+    table = ".".join(above)
+    words = (
+        f"{above[-1] if above else last} = {{...}} is closed by its brace, so [{table}.{last}] cannot follow"
+    )
+    return f"{words}; write [{table}] with a line for each key instead of the braces"
+
+
 def _reasons(text: str, error: ValueError) -> Iterator[str]:
     """Yield the reasons why a text is no TOML: of the line where the parser stops, and of further ones.
 
@@ -312,7 +324,7 @@ def _reasons(text: str, error: ValueError) -> Iterator[str]:
         if twice or hint:
             yield twice or f"line {number}: {hint}"
         elif not reported:
-            yield brief(said, 2 * LONGEST)
+            yield _in_braces(said) or brief(said, 2 * LONGEST)
         if not hint:
             return
         reported, lines[number - 1] = True, ""
@@ -326,7 +338,10 @@ def _reasons(text: str, error: ValueError) -> Iterator[str]:
 
 def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
     stem = PureWindowsPath(name).stem
-    near = stem if stem in built_in else closest(name, built_in)
+    folder = Path(name).parent
+    files = [str(folder / file.name) for file in folder.glob("*.toml")] if folder.is_dir() else []
+    own = next((file for file in files if Path(file).stem == stem), None) or closest(name, files, cutoff=0.7)
+    near = own or (stem if stem in built_in else closest(name, built_in))
     hint = f"; did you mean {near}?" if near else ""
     return f"there is no such file, and no built-in case of this name (built in: {', '.join(built_in)}){hint}"
 

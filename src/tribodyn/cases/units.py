@@ -291,6 +291,7 @@ def _split(text: str) -> tuple[Decimal, str]:
     return Decimal(number), f"1{unit}" if unit.startswith("/") else unit
 
 
+_SEVERAL: Final = re.compile(r"\s*,\s+[-+.\d]")
 _COMMA: Final = re.compile(r"\d,\d")
 """Decimal comma of a computation."""
 
@@ -310,6 +311,11 @@ class _Scale(NamedTuple):
 def _known(unit: str) -> _Scale:
     """Return the definition of a unit that a user wrote."""
     unit = _BARE_POWER.sub(r"^\1", unit)
+    if _SEVERAL.match(unit):
+        raise UnitProblem(
+            "these are several numbers, and this key takes one: forces and moments are sizes here, and have "
+            "their directions in a key of their own, direction = [-1, 0, 0]"
+        )
     if _COMMA.search(unit):
         raise UnitProblem("numbers have a decimal point, not a comma")
     if not _UNIT_PATTERN.fullmatch(unit):

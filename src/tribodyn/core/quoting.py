@@ -68,7 +68,8 @@ def nearest(word: str, words: Collection[str], number: int = 5) -> str:
     """
     first = closest(word, words)
     alike = difflib.get_close_matches(word[:LONGEST], words, n=number, cutoff=0.4)
-    found = [*([first] if first else []), *(other for other in alike if other != first)][:number]
+    begun = [other for other in words if any(part.startswith(word) for part in other.split("_"))]
+    found = [*dict.fromkeys([*([first] if first else []), *begun, *alike])][:number]
     return f"nearest of {len(words)}: {', '.join(found or list(words)[:number])}"
 
 

@@ -113,7 +113,7 @@ MECHANISM: Final = MechanismDescriptor(
     ),
     parts={
         "joints.*": ("type", "between", "point", "axis", "second_axis"),
-        "joints.*.clearance": ("radius", "radial", "length"),
+        "joints.*.clearance": ("radius", "radial", "length", "axial"),
         "bodies.*": (
             "shape",
             "density",

@@ -62,3 +62,23 @@ def test_a_file_without_a_kind_is_taken_for_the_one_whose_tables_it_has(tmp_path
     file.write_text('title = "Arm"\n[bodies.arm]\nmass = "1 kg"\n[joints.pivot]\ntype = "revolute"\n')
     with pytest.raises(InputError, match='write case = "mechanism" at the top'):
         load_case(file)
+
+
+def test_a_file_with_a_name_alike_is_named(tmp_path: Path) -> None:
+    (tmp_path / "press.toml").write_text("", encoding="utf-8")
+    for given in ("pres.toml", "press"):
+        with pytest.raises(InputError, match=r"there is no such file.*did you mean .*press\.toml\?"):
+            load_case(str(tmp_path / given))
+
+
+def test_a_table_in_braces_that_goes_on_elsewhere_is_named() -> None:
+    text = '[joints]\nwrist = { type = "revolute" }\n[joints.wrist.clearance]\nradial = "1 um"\n'
+    with pytest.raises(
+        InputError, match=r"\[joints\.wrist\.clearance\] cannot follow; write \[joints\.wrist\]"
+    ):
+        parse_case(text, "mine.toml")
+
+
+def test_a_force_is_a_size_and_no_vector() -> None:
+    with pytest.raises(InputError, match=r"these are several numbers.*direction = \[-1, 0, 0\]"):
+        parse_case('case = "mechanism"\n[loads.push]\nforce = "-100, 0, 0 N"\n', "mine.toml")

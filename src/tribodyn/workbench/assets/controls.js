@@ -56,6 +56,7 @@ function findControls(text, all) {
   const used = gesture.before !== null || place.contains(document.activeElement);
   if (!used && there !== shown.map(({ key }) => key).join()) place.replaceChildren(...shown.map(controlOf));
   const more = found.length > MOST_FOUND && !all ? `, the first ${MOST_FOUND} are shown` : "";
+  if (words.length && !used) place.firstElementChild?.scrollIntoView({ block: "nearest" });
   write(document.getElementById("found"), words.length ? `${found.length} of ${others.length} keys${more}` : "");
   fillControls();
 }

@@ -13,10 +13,10 @@ function resultText(value, digits) {
 }
 
 /** Return by how much a number differs from that of another run, in percent. */
-function difference(value, other) {
+function difference(value, other, digits) {
   if (typeof value !== "number" || typeof other !== "number" || !other) return "";
   const share = (100 * (value - other)) / Math.abs(other);
-  if (share === 0) return "same";
+  if (Math.abs(share) <= 50 * 10 ** (1 - digits)) return "no difference";
   return `${share > 0 ? "+" : ""}${number(share, Math.abs(share) >= 100 ? 3 : 2)} %`;
 }
 
@@ -84,7 +84,7 @@ function numberRow(one) {
   const range = rangeText(one);
   const assumed = pageState.shown.assumed?.includes(name) ? " assumed" : "";
   const main = element("td", { class: `value${assumed}` }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));
-  const change = difference(value, compared()?.results[name]);
+  const change = difference(value, compared()?.results[name], digits);
   const rest = [["from pinned", change], robust ? ["last runs", range] : ["this run", range && words], ["slope", slopeText(name)]];
   const cells = rest.map(([what, text]) => element("td", { "data-what": what }, text));
   return element("tr", { "data-row": name }, element("th", { scope: "row" }, button(label, choose, about)), main, ...cells);

@@ -40,13 +40,13 @@ function slopeArrived({ number: mine, done, of, finished, results }) {
 function slopeInWords() {
   if (!slope.key) return "";
   const progress = slope.finished ? "" : `: ${slope.done} of ${slope.of || "…"} runs`;
-  return `Slopes in % per % of ${slope.key}, fitted over runs within ±10 %, with their standard errors; in brackets where scatter hides them${progress}`;
+  return `Slopes in % per % of ${slope.key}, fitted over runs within ±10 %, with their standard errors; none seen where scatter hides them${progress}`;
 }
 
 /** Return the slope of a number and its scatter in words. */
 function slopeText(name) {
   const found = slope.key && slope.results[name];
   if (!found) return "";
-  const text = `${number(found.slope, 2)} ± ${number(found.scatter, 1)}`;
-  return Math.abs(found.scatter) > Math.abs(found.slope) ? `(${text})` : text;
+  const hidden = Math.abs(found.scatter) > Math.abs(found.slope);
+  return hidden ? "none seen" : `${number(found.slope, 2)} ± ${number(found.scatter, 1)}`;
 }
