@@ -297,18 +297,6 @@ def _other_program(source: str, text: str = "") -> str:
     return f"this is {kind}; {words}" if kind else ""
 
 
-def _in_braces(error: str) -> str:
-    """Return the message on a table in braces that is continued elsewhere; empty for any other error."""
-    if not error.startswith("Cannot declare ("):
-        return ""
-    *above, last = re.findall(r"'([^']*)'", error)
-    table = ".".join(above)
-    words = (
-        f"{above[-1] if above else last} = {{...}} is closed by its brace, so [{table}.{last}] cannot follow"
-    )
-    return f"{words}; write [{table}] with a line for each key instead of the braces"
-
-
 def _reasons(text: str, error: ValueError) -> Iterator[str]:
     """Yield the reasons why a text is no TOML: of the line where the parser stops, and of further ones.
 
@@ -324,7 +312,7 @@ def _reasons(text: str, error: ValueError) -> Iterator[str]:
         if twice or hint:
             yield twice or f"line {number}: {hint}"
         elif not reported:
-            yield _in_braces(said) or brief(said, 2 * LONGEST)
+            yield toml.in_braces(said) or brief(said, 2 * LONGEST)
         if not hint:
             return
         reported, lines[number - 1] = True, ""

@@ -67,3 +67,15 @@ def _refuse_depth(text: str) -> None:
             raise ValueError(f"nested too deeply, more than {DEEPEST} levels")
         if marks > _MOST_MARKS:
             raise ValueError("too many entries")
+
+
+def in_braces(error: str) -> str:
+    """Return the message on a table in braces that is continued elsewhere; empty for any other error."""
+    if not error.startswith("Cannot declare ("):
+        return ""
+    *above, last = re.findall(r"'([^']*)'", error)
+    table = ".".join(above)
+    words = (
+        f"{above[-1] if above else last} = {{...}} is closed by its brace, so [{table}.{last}] cannot follow"
+    )
+    return f"{words}; write [{table}] with a line for each key instead of the braces"

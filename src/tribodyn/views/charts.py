@@ -251,9 +251,12 @@ def telling(panels: Sequence[Panel]) -> tuple[list[Panel], str]:
     varying, constant = [], []
     if not any(finite(curve.values).size for panel in panels for curve in panel.curves):
         return [*panels], ""
+    forces = [peak(curve.values) for panel in panels if panel.unit == "N" for curve in panel.curves]
+    # A moment of rounding has no size of its own: it is that of forces on a metre.
+    noise = {**_NOISE, "N m": _NOTHING * max(forces, default=0.0)}
     for panel in panels:
         reach = [peak(curve.values) for curve in panel.curves]
-        least = max(_NOTHING * max(reach, default=0.0), _NOISE.get(panel.unit, 0.0))
+        least = max(_NOTHING * max(reach, default=0.0), noise.get(panel.unit, 0.0))
         curves = [curve for curve, size in zip(panel.curves, reach, strict=True) if size > least]
         if any(np.ptp(finite(curve.values)) > _CONSTANT * peak(curve.values) for curve in curves):
             varying.append(replace(panel, curves=curves))
