@@ -65,9 +65,9 @@ def test_a_file_without_a_kind_is_taken_for_the_one_whose_tables_it_has(tmp_path
 
 
 def test_a_file_with_a_name_alike_is_named(tmp_path: Path) -> None:
-    (tmp_path / "press.toml").write_text("", encoding="utf-8")
-    for given in ("presss.toml", "press"):
-        with pytest.raises(InputError, match=r"there is no such file.*did you mean .*press\.toml\?"):
+    (tmp_path / "crank.toml").write_text("", encoding="utf-8")
+    for given in ("cranks.toml", "crank"):
+        with pytest.raises(InputError, match=r"there is no such file.*did you mean .*crank\.toml\?"):
             load_case(str(tmp_path / given))
 
 
