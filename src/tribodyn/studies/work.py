@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tribodyn.core.errors import TribodynError
-from tribodyn.core.versions import version
+from tribodyn.core.versions import unexpected, version
 from tribodyn.results.summary import Summary
 
 
@@ -80,7 +80,7 @@ def compute(
     except MemoryError:
         return failed("the worker has not enough memory", final=False)
     except Exception as error:
-        return failed(f"internal error: {type(error).__name__}: {error}", final=True)
+        return failed(unexpected(error), final=True)
 
 
 def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> PointOutcome:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import Stopped, TribodynError
+from tribodyn.core.versions import unexpected
 from tribodyn.workbench import frame
 
 if TYPE_CHECKING:
@@ -159,7 +160,7 @@ def reply(limits: Limits, message: bytes, connection: Connection) -> bytes | Non
     except MemoryError:
         return _failure(f"this takes more memory than a worker may have, {limits.memory / _GB:g} GB")
     except Exception as error:
-        return _failure(f"internal error: {type(error).__name__}: {error}")
+        return _failure(unexpected(error))
     if len(content) > limits.result:
         return _failure(f"the result is larger than {limits.result / 1e6:g} MB")
     return RESULT + content

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import struct
 import subprocess
 import sys
 import zipfile
@@ -49,8 +50,8 @@ except ImportError as problem:
 """
 
 
-def build(folder: Path) -> None:
-    command = [sys.executable, "-m", "mebdf.compiled.make", "small", "--dist", str(folder / "dist")]
+def build(folder: Path, *options: str) -> None:
+    command = [sys.executable, "-m", "mebdf.compiled.make", "small", "--dist", str(folder / "dist"), *options]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
 
 
@@ -115,6 +116,24 @@ def test_two_builds_give_the_same_bytes(copy: Path) -> None:
     (sources(copy).folder / MANIFEST).unlink()
     build(copy)
     assert content(copy) == before
+
+
+@pytest.mark.parametrize(
+    ("system", "beginning"),
+    [
+        ("linux-aarch64", b"\x7fELF\2\1\1" + bytes(9) + b"\3\0\xb7\0"),  # a shared object for AArch64
+        ("darwin-arm64", struct.pack("<IIII", 0xFEEDFACF, 0x0100000C, 0, 6)),  # Mach-O, ARM64, a library
+        ("win32-AMD64", b"MZ"),
+    ],
+)
+def test_a_library_is_made_for_another_system(copy: Path, system: str, beginning: bytes) -> None:
+    build(copy, "--system", system)
+    code = content(copy)["baseline.so"]
+    assert code.startswith(beginning)
+    assert b"k0\0" in code
+    assert f"the machine code is for {system}, this is " in asked(copy)
+    build(copy)
+    assert asked(copy, "without") == "42.0 False"
 
 
 def test_paths_of_the_machine_leave_nothing_in_the_code() -> None:

@@ -11,12 +11,11 @@ from typing import Any, Final
 from llvmlite import binding as llvm
 
 from mebdf.compiled.kernel import RESULT
-from mebdf.compiled.library import NoMachineCode, level
+from mebdf.compiled.library import NoMachineCode, level, system
+from mebdf.compiled.platforms import PLATFORMS, Platform
 
 Described = tuple[str, tuple[str, ...], str]
 """Symbol of a function, kinds of its arguments, kind of its result."""
-PROCESSORS: Final = {"v3": "x86-64-v3", "baseline": "x86-64-v2"}
-"""Processors for which LLVM makes code, by levels. Features are none: numba would add those of this one."""
 ALLOWED: Final = {"memset", "memcpy", "memmove"}
 """Functions that machine code may take from the system."""
 _RUNTIME: Final = """
@@ -136,25 +135,22 @@ def _portable(text: str) -> str:
     return re.sub(r"^source_filename = .*\n", "", text, flags=re.M)
 
 
-def machine(name: str) -> Any:
-    """Return LLVM's machine of a level of processors."""
+def optimised(text: str, platform: Platform, level: str) -> tuple[Any, Any]:
+    """Return a module of intermediate code, optimised once for a level of processors, and LLVM's machine."""
     _started()
-    target = llvm.Target.from_triple("x86_64-unknown-linux-gnu")
-    return target.create_target_machine(
-        cpu=PROCESSORS[name], features="", opt=3, reloc="pic", codemodel="default"
+    target = llvm.Target.from_triple(platform.triple).create_target_machine(
+        cpu=platform.processors[level], features="", opt=3, reloc="pic", codemodel="default"
     )
-
-
-def optimised(text: str, target: Any) -> Any:
-    """Return a module of intermediate code for a machine, optimised once."""
     text = re.sub(r"^target [^\n]*\n", "", text, flags=re.M)
+    if "windows" in platform.triple:  # where a function cannot be found unless it says so
+        text = re.sub(r"^define (i32|void) @k", r"define dllexport \1 @k", text, flags=re.M)
     head = f'target datalayout = "{target.target_data}"\ntarget triple = "{target.triple}"\n'
     module = llvm.parse_assembly(head + text)
     options = llvm.create_pipeline_tuning_options(speed_level=3)
     options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = True
     builder = llvm.create_pass_builder(target, options)
     builder.getModulePassManager().run(module, builder)
-    return module
+    return module, target
 
 
 _engines: Final[list[Any]] = []
@@ -163,8 +159,8 @@ _engines: Final[list[Any]] = []
 
 def address(module: Any, name: str) -> int:
     """Return the address of a function of a module of which machine code is made now."""
-    target = machine(level())
-    engine = llvm.create_mcjit_compiler(optimised(str(module), target), target)
+    here = PLATFORMS.get(system()) or Platform(llvm.get_default_triple(), {level(): "generic"}, "", "")
+    engine = llvm.create_mcjit_compiler(*optimised(str(module), here, level()))
     engine.finalize_object()
     _engines.append(engine)
     found: int = engine.get_function_address(name)

@@ -1,7 +1,8 @@
 """Builder of libraries of machine code: ``python -m mebdf.compiled.make PACKAGE...``.
 
 A package is ``mebdf`` or ``tribodyn``. A library that fits the sources is left as it is; a wheel of the same
-sources in ``dist`` gives its own. Two builds give the same bytes.
+sources in ``dist`` gives its own. Two builds give the same bytes. The Python package ziglang has linkers for
+the other systems.
 """
 
 from __future__ import annotations
@@ -23,15 +24,17 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mebdf.compiled.library import LEVELS, MANIFEST, NoMachineCode, Sources, fingerprint, system
+from mebdf.compiled.library import MANIFEST, NoMachineCode, Sources, fingerprint
+from mebdf.compiled.library import system as this_system
+from mebdf.compiled.platforms import PLATFORMS
 
 if TYPE_CHECKING:
     from mebdf.compiled.jit import Compiled
     from mebdf.compiled.kernel import Kernel
 
 
-def make(sources: Sources) -> None:
-    """Make the library of a package for all levels of processors.
+def make(sources: Sources, system: str) -> None:
+    """Make the library of a package for all levels of processors of a system.
 
     Raises
     ------
@@ -46,11 +49,13 @@ def make(sources: Sources) -> None:
     functions = _compiled(listed)
     described = [(function.symbol, function.kinds, function.result) for function in functions]
     text = str(build.linked(jit.libraries(functions), described))
-    with ProcessPoolExecutor(len(LEVELS), multiprocessing.get_context("fork")) as pool:
-        made = dict(zip(LEVELS, pool.map(_library, [text] * len(LEVELS), LEVELS), strict=True))
+    levels = PLATFORMS[system].processors
+    with ProcessPoolExecutor(len(levels), multiprocessing.get_context("fork")) as pool:
+        each = {level: pool.submit(_library, text, system, level) for level in levels}
+        made = {level: library.result() for level, library in each.items()}
     manifest = {
         "sources": before,
-        "system": system(),
+        "system": system,
         "made_by": {name: metadata.version(name) for name in ("numba", "llvmlite")},
         "levels": {name: hashlib.sha256(code).hexdigest() for name, code in made.items()},
         "functions": {
@@ -75,25 +80,26 @@ def _compiled(listed: Sequence[Kernel]) -> list[Compiled]:
     return functions
 
 
-def _library(text: str, level: str) -> bytes:
+def _library(text: str, system: str, level: str) -> bytes:
     """Return the bytes of a shared library of intermediate code for a level of processors."""
     from mebdf.compiled import build
 
-    target = build.machine(level)
+    platform = PLATFORMS[system]
     with tempfile.TemporaryDirectory() as place:
         code, library = Path(place, "kernels.o"), Path(place, "kernels.so")
-        code.write_bytes(target.emit_object(build.optimised(text, target)))
-        flags = ["-shared", "-nostdlib", "-s", "-Wl,--build-id=none"]
-        subprocess.run([*_linker(), *flags, code.name, "-o", library.name], cwd=place, check=True)
+        module, target = build.optimised(text, platform, level)
+        code.write_bytes(target.emit_object(module))
+        command = [*_linker(system), "-shared", "-s", *platform.flags, code.name, "-o", library.name]
+        subprocess.run(command, cwd=place, check=True)
         return library.read_bytes()
 
 
-def _linker() -> list[str]:
-    if compiler := shutil.which("cc"):
+def _linker(system: str) -> list[str]:
+    if system == this_system() and (compiler := shutil.which("cc")):
         return [compiler]
     if importlib.util.find_spec("ziglang") is None:
-        raise NoMachineCode("there is no linker; install a C compiler, or the Python package ziglang")
-    return [sys.executable, "-m", "ziglang", "cc"]
+        raise NoMachineCode(f"there is no linker for {system}; install the Python package ziglang")
+    return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[system].linker]
 
 
 def _write(folder: Path, files: dict[str, bytes]) -> None:
@@ -105,30 +111,30 @@ def _write(folder: Path, files: dict[str, bytes]) -> None:
         (folder / f"{name}.part").replace(folder / name)
 
 
-def from_wheel(sources: Sources, dist: Path) -> bool:
+def from_wheel(sources: Sources, system: str, dist: Path) -> bool:
     """Take the library from a wheel of the same sources; return whether there was one."""
     start = f"{sources.package.name}/kernels/built/"
     for path in sorted(dist.glob(f"{sources.package.name}-*.whl")):
         with zipfile.ZipFile(path) as wheel:
             names = [name for name in wheel.namelist() if name.startswith(start)]
             files = {name.removeprefix(start): wheel.read(name) for name in names}
-        if MANIFEST in files and _fits(files[MANIFEST], sources):
+        if MANIFEST in files and _fits(files[MANIFEST], sources, system):
             _write(sources.folder, files)
             return True
     return False
 
 
-def is_there(sources: Sources) -> bool:
+def is_there(sources: Sources, system: str) -> bool:
     """Tell whether there is a library that was made from the sources as they are."""
     try:
-        return _fits((sources.folder / MANIFEST).read_bytes(), sources)
+        return _fits((sources.folder / MANIFEST).read_bytes(), sources, system)
     except OSError:
         return False
 
 
-def _fits(manifest: bytes, sources: Sources) -> bool:
+def _fits(manifest: bytes, sources: Sources, system: str) -> bool:
     found: dict[str, Any] = json.loads(manifest)
-    return bool(found["sources"] == fingerprint(sources) and found["system"] == system())
+    return bool(found["sources"] == fingerprint(sources) and found["system"] == system)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -136,12 +142,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m mebdf.compiled.make", description=__doc__)
     parser.add_argument("packages", nargs="+", metavar="PACKAGE")
     parser.add_argument("--dist", type=Path, default=Path("dist"), help="folder of wheels")
+    parser.add_argument(
+        "--system", choices=PLATFORMS, default=this_system(), help="system that it is made for"
+    )
     given = parser.parse_args(arguments)
     gc.disable()  # looking for cycles takes a fifth of the time, and what it would free is little
     for package in given.packages:
         sources: Sources = importlib.import_module(f"{package}.kernels.jit").SOURCES
-        if not is_there(sources) and not from_wheel(sources, given.dist):
-            make(sources)
+        if not is_there(sources, given.system) and not from_wheel(sources, given.system, given.dist):
+            make(sources, given.system)
 
 
 if __name__ == "__main__":
