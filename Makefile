@@ -53,7 +53,8 @@ check: ready $(VENV)/.docs
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
 	$(BIN)/tribodyn validate -o out/validation --quiet
 	$(MAKE) docs
-	tools/try-wheel $(BIN)/python
+	tools/try-wheel $(BIN)/python out/wheels
+	tools/try-bounds out/wheels
 
 check-long: ready
 	$(PYTEST) -m long --part $(SEVENTH)/7

@@ -156,7 +156,7 @@ def test_a_wheel_of_the_same_sources_gives_its_library(copy: Path) -> None:
         for name, of_file in before.items():
             wheel.writestr(f"small/kernels/built/{name}", of_file)
     shutil.rmtree(sources(copy).folder)
-    assert make.from_wheel(sources(copy), copy / "dist")
+    assert make.from_wheel(sources(copy), libraries.system(), copy / "dist")
     assert content(copy) == before
 
 
