@@ -16,6 +16,10 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 class Kernels(BuildHookInterface[Any]):
     """Puts the library into wheels; on systems that have none, kernels are compiled where they run."""
 
+    def dependencies(self) -> list[str]:
+        """Return what a build needs besides: a linker for another system."""
+        return ["ziglang>=0.13"] if "MEBDF_SYSTEM" in os.environ else []
+
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Make the library for this system, or the one that ``MEBDF_SYSTEM`` names.
 
