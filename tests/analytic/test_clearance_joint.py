@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tribodyn.contact import SurfacePair, law
+from tribodyn.contact.bulk import Bulk
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints import BushingJoint
@@ -25,7 +26,9 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 MakeClearance = Callable[..., Clearance]
 POINT = "point-lankarani-nikravesh"
 SHAPES = ("cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "mesh", "guide")
-KINDS = (*SHAPES, "cylinder at points", "sphere at a point")
+POINTS = ("cylinder at points", "sphere at a point")
+ELASTIC = tuple(f"elastic {shape}" for shape in SHAPES)
+KINDS = (*SHAPES, *POINTS, *ELASTIC)
 
 BALLS = ("sphere", "ball", "sphere at a point")
 STENCIL = np.arange(-3.0, 4.0)
@@ -44,10 +47,15 @@ def kinds(make_clearance: MakeClearance, table_1_pair: SurfacePair) -> dict[str,
     for kind in ("wide", "piston"):  # whose surface speeds are larger with their radius
         made[kind] = make_clearance(kind, grid=(26, 6), slip_velocity=3e-4)
     chosen = law("rsdc", table_1_pair)
-    for kind in KINDS[len(SHAPES) :]:
+    for kind in POINTS:
         shape = kind.split(maxsplit=1)[0]
         table = table_of(POINT, chosen, made[shape].shape, onset=4.0, smoothing_width=1.0)
         made[kind] = make_clearance(shape, contact=POINT, table=table, grid=(26, 6))
+    for kind, shape in zip(ELASTIC, SHAPES, strict=True):
+        rigid = made[shape]
+        size = max(surface.size for surface in rigid.shape.surfaces(rigid.grid))
+        bulk = Bulk(rigid.table, rigid.roughness, table_1_pair.composite_modulus, size)
+        made[kind] = dataclasses.replace(rigid, bulk=bulk, hardness=table_1_pair.hardness)
     return made
 
 
@@ -63,9 +71,10 @@ def tilted(phi_x: float, phi_y: float, spin: float = 0.0) -> FloatArray:
 
 def draw(kind: str, seed: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return displacement, rotation, velocity and angular velocity of a journal in contact."""
-    random = np.random.default_rng(seed)
+    random, elastic = np.random.default_rng(seed), kind in ELASTIC
+    kind = kind.removeprefix("elastic ")
     direction = random.normal(size=3) * [1.0, 1.0, 0.2]
-    d = direction / np.linalg.norm(direction) * (24e-6 if "point" in kind else 19e-6)
+    d = direction / np.linalg.norm(direction) * (24e-6 if "point" in kind or elastic else 19e-6)
     if kind in ("annulus", "flanged"):
         d[2] = -16e-6 if kind == "annulus" else -12e-6
     # A ball has no tilt, a square journal is held in its tube.
@@ -127,7 +136,7 @@ def test_power_is_heat_and_stored_energy(kind: str, kinds: dict[str, Clearance])
         wrench(data, memory, 0, pose, out)
         report(data, memory, 0, pose)
         heat = memory.reports["damping_power"].sum()
-        friction = memory.reports["friction_power"].sum()
+        friction, widening = memory.reports["friction_power"].sum(), memory.reports["expansion_power"].sum()
         assert heat >= 0.0
         assert friction < 0.0
         step = 2e-11 / max(np.abs(v).max(), 1e-2 * np.abs(w).max())  # as the differences above
@@ -136,7 +145,8 @@ def test_power_is_heat_and_stored_energy(kind: str, kinds: dict[str, Clearance])
             turned = Rotation.from_rotvec(m * step * w).as_matrix() @ rotation
             report(data, memory, 0, pose_at(d + m * step * v, turned, v, w))
             energies.append(memory.reports["energy_contact"].sum())
-        terms = np.array([*out * np.concatenate([v, w]), heat, friction, WEIGHTS @ energies / step])
+        stored = WEIGHTS @ energies / step - widening
+        terms = np.array([*out * np.concatenate([v, w]), heat, friction, stored])
         power = out[:3] @ v + out[3:] @ w
         # Rounding of the differences, as for the bushing.
         assert power + heat - friction + terms[-1] == pytest.approx(0.0, abs=1e-8 * np.abs(terms).max())

@@ -54,6 +54,12 @@ class LinerKeys(Group):
             f"{key}.poisson_ratio",
             "a thin layer that cannot change its volume does not yield: below 0.5 is needed",
         )
+        demand(
+            modulus >= bushing.hardness,
+            f"{key}.young_modulus",
+            f"a sleeve of {1e-6 * modulus:.4g} MPa yields before asperities of the hardness "
+            f"{1e-6 * bushing.hardness:.4g} MPa do: give a stiffer sleeve, or the hardness of its material",
+        )
         return Liner(self.thickness, modulus, ratio)
 
 

@@ -33,6 +33,8 @@ DEEPEST: Final = 256.0
 """Largest range of the gap in a table, in σ: a soft layer sinks by more before asperities end."""
 _ITERATIONS: Final = 50
 _EXACT: Final = 1.0e-14
+_FEW: Final = 5
+"""Iterations from a neighbouring node that end within 1e-12 σ."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,9 @@ class Liner:
         return beta * (self.thickness / half_width) ** 2
 
 
-def lined(table: ContactTable, stiffness: float) -> ContactTable:
+def lined(
+    table: ContactTable, stiffness: float, *, depth: float | None = None, stride: int = 1
+) -> ContactTable:
     """Return the table over the gap of a contact whose asperities stand on a layer.
 
     Parameters
@@ -91,6 +95,11 @@ def lined(table: ContactTable, stiffness: float) -> ContactTable:
         Over the separation of the asperities.
     stiffness
         k_w σ: pressure that the layer takes for each σ [Pa].
+    depth
+        Depth of the table below a gap of zero [σ]; asperities go on linearly below their own table.
+        Without it the table ends where they do.
+    stride
+        Nodes of the given table to one of the result.
 
     Returns
     -------
@@ -99,14 +108,24 @@ def lined(table: ContactTable, stiffness: float) -> ContactTable:
     """
     from scipy.interpolate import CubicHermiteSpline
 
-    step = 1.0 / table.inverse_step
-    separations: FloatArray = table.h_first + step * np.arange(len(table.nodes), dtype=np.float64)
-    pressure = CubicHermiteSpline(separations, table.nodes[:, 0], table.nodes[:, 1] / step)
-    damping = CubicHermiteSpline(separations, table.nodes[:, 2], table.nodes[:, 3] / step)
-    lowest = max(table.h_first - table.nodes[0, 0] / stiffness, table.h_last - DEEPEST)
-    count = int((table.h_last - lowest) * table.inverse_step * (1.0 + _EXACT))
+    step, nodes = 1.0 / table.inverse_step, table.nodes
+    separations: FloatArray = table.h_first + step * np.arange(len(nodes), dtype=np.float64)
+    lowest = max(table.h_first - nodes[0, 0] / stiffness, table.h_last - DEEPEST)
+    if depth is not None:
+        lowest, further = -depth, (depth + table.h_first) / step
+        below = [
+            nodes[0, 0] - further * nodes[0, 1],
+            nodes[0, 1],
+            nodes[0, 2] - further * nodes[0, 3],
+            nodes[0, 3],
+        ]
+        nodes, separations = np.vstack([below, nodes]), np.append(lowest, separations)
+    pressure = CubicHermiteSpline(separations, nodes[:, 0], nodes[:, 1] / step)
+    damping = CubicHermiteSpline(separations, nodes[:, 2], nodes[:, 3] / step)
+    step *= stride
+    count = int((table.h_last - lowest) * table.inverse_step / stride * (1.0 + _EXACT))
     gap: FloatArray = table.h_last - step * np.arange(count, -1, -1, dtype=np.float64)
-    s = _separations(gap, separations, pressure, stiffness)
+    s = _separations(gap, separations, pressure, stiffness, _ITERATIONS if depth is None else _FEW)
     share = 1.0 / (1.0 - pressure(s, 1) / stiffness)
     cube = share * share * share
     bend = cube * pressure(s, 2) / stiffness
@@ -122,9 +141,9 @@ def lined(table: ContactTable, stiffness: float) -> ContactTable:
 
 
 def _separations(
-    gap: FloatArray, nodes: FloatArray, pressure: CubicHermiteSpline, stiffness: float
+    gap: FloatArray, nodes: FloatArray, pressure: CubicHermiteSpline, stiffness: float, most: int
 ) -> FloatArray:
-    """Return s with s − P(s)/k = h for each gap h, both of shape (n,) [1], by Newton's method.
+    """Return s with s − P(s)/k = h for each gap h, both of shape (n,) [1], by at most ``most`` Newton steps.
 
     h grows at least as fast as s does, and no iterate leaves the two nodes around the solution.
     """
@@ -132,7 +151,7 @@ def _separations(
     place = np.clip(np.searchsorted(at_nodes, gap, side="right"), 1, nodes.size - 1)
     low, high = nodes[place - 1], nodes[place]
     s = np.clip(np.interp(gap, at_nodes, nodes), low, high)
-    for _ in range(_ITERATIONS):
+    for _ in range(most):
         change = (s - pressure(s) / stiffness - gap) / (1.0 - pressure(s, 1) / stiffness)
         s = np.clip(s - change, low, high)
         if np.all(np.abs(change) <= _EXACT * (1.0 + np.abs(s))):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from mebdf.kernels.elementary import portable
 from tribodyn.contact import Liner
+from tribodyn.contact.bulk import LEVELS, Bulk
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
@@ -23,6 +25,7 @@ from tribodyn.joints.rows import angles_of, rings_of, rows_of
 from tribodyn.joints.shapes import Points, Shape, Surface
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.joints.surface import data as kernel
+from tribodyn.kernels.joints.surface.bulk import KAPPA
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.pose import Pose
 
@@ -47,6 +50,10 @@ class SurfaceLaw:
         μ and its regularisation u_s [m/s].
     onset, minimum_velocity, tensile_clip
         See ``joints.EntryMemory``.
+    hardness
+        Largest pressure [Pa]; a law without one ends with its table.
+    bulk
+        Elastic bodies under the asperities, where their compliance follows the contact.
     """
 
     roughness: float
@@ -56,6 +63,8 @@ class SurfaceLaw:
     onset: float
     minimum_velocity: float
     tensile_clip: bool
+    hardness: float = math.inf
+    bulk: Bulk | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,8 +196,11 @@ def join(where: Sequence[Place], laws: Sequence[SurfaceLaw], wear: FloatArray | 
         record["opens"] = place.surface.opens
         record["slides"] = 1.0 if place.surface.slides else 0.0
         record["lean"], record["along"] = place.surface.lean, 1.0
-        tables.fill(record, laws[place.joint].table)
-        _fill_law(record, laws[place.joint])
+        law = laws[place.joint]
+        tables.fill(record, law.table)
+        _fill_law(record, law)
+        if law.bulk is not None:
+            _fill_bulk(record, tables, law.bulk, place.surface)
     nodes = _nodes(where, wear)
     rows = rows_of([(place.surface.rows, place.nodes.start) for place in where], nodes)
     return SurfaceData(
@@ -210,10 +222,10 @@ class _Tables:
     def __init__(self) -> None:
         self.tables: list[ContactTable] = []
 
-    def fill(self, record: Record, table: ContactTable) -> None:
-        """Tell a surface where its table lies."""
+    def fill(self, record: Record, table: ContactTable, *others: ContactTable) -> None:
+        """Tell a surface where its table lies, which ``others`` follow."""
         if not any(known is table for known in self.tables):
-            self.tables.append(table)
+            self.tables += [table, *others]
         at = next(k for k, known in enumerate(self.tables) if known is table)
         record["first_interval"] = sum(_intervals(known) for known in self.tables[:at])
         record["last_interval"] = record["first_interval"] + _intervals(table)
@@ -236,8 +248,21 @@ def _fill_law(record: Record, law: SurfaceLaw) -> None:
     """Tell a surface how it touches."""
     for name in ("roughness", "friction_coefficient", "slip_velocity", "onset"):
         record[name] = getattr(law, name)
-    record["minimum_entry_velocity"] = law.minimum_velocity
+    record["minimum_entry_velocity"], record["hardness"] = law.minimum_velocity, law.hardness
+    record["deepest"] = law.table.h_first * law.roughness if math.isinf(law.hardness) else -math.inf
     record["tensile_clip"] = 1.0 if law.tensile_clip else 0.0
+
+
+def _fill_bulk(record: Record, tables: _Tables, bulk: Bulk, surface: Surface) -> None:
+    """Tell a surface of elastic bodies."""
+    if surface.rows["whole"].any():
+        tables.fill(record, bulk.on(bulk.compliance(surface.size)))
+        return
+    tables.fill(record, *bulk.levels)
+    record["levels"], record["extent"], record["bore"] = LEVELS, surface.extent, surface.size
+    record["pitch"], record["clearance"] = record["last_interval"] - record["first_interval"], surface.room
+    record["softness"] = LEVELS * math.sqrt(KAPPA * surface.size / bulk.size)
+    record["growth"] = 2.0 * bulk.softest / (bulk.roughness * LEVELS**2)
 
 
 def fill_points(record: Record, points: Points) -> None:

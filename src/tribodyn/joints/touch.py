@@ -1,8 +1,10 @@
 """Two surfaces that touch in a joint, and how deep a run has pressed them together."""
 
+import math
 from dataclasses import dataclass
 
 from mebdf.kernels.elementary import portable
+from tribodyn.contact.bulk import Bulk
 from tribodyn.contact.liner import Liner
 from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE
@@ -30,6 +32,10 @@ class Touch:
         Radial clearance [m]; NaN for surfaces that do not curve round each other.
     bore_radius
         Radius of the bore or race [m]; NaN likewise.
+    bulk
+        Elastic bodies under the asperities, in the place of a liner.
+    size
+        Half the width of a surface that does not curve [m].
     """
 
     roughness: float
@@ -38,6 +44,8 @@ class Touch:
     liner: Liner | None
     clearance: float
     bore_radius: float
+    bulk: Bulk | None = None
+    size: float = math.nan
 
     @property
     def over_surface(self) -> bool:
@@ -46,18 +54,26 @@ class Touch:
 
     def asperity_separation(self, gap: float) -> float:
         """Return the mean planes' distance s over σ where they would be ``gap`` [m] apart unloaded [1]."""
-        h_star = gap / self.roughness
-        if self.liner is None:
-            return h_star
-        pressure = float(pressure_and_damping(self.table, h_star)[0])
-        return h_star + pressure / (self.liner.stiffness * self.roughness)
+        table, compliance = self._under(gap)
+        pressure = float(pressure_and_damping(table, gap / self.roughness)[0])
+        return (gap + pressure * compliance) / self.roughness if compliance else gap / self.roughness
+
+    def _under(self, gap: float) -> tuple[ContactTable, float]:
+        """Return the table over the gap and the compliance below the asperities [m/Pa] at a gap."""
+        if self.bulk is None:
+            return self.table, 0.0 if self.liner is None else 1.0 / self.liner.stiffness
+        if math.isfinite(self.bore_radius):
+            compliance = self.bulk.of_arc(gap, self.clearance, self.bore_radius)
+        else:
+            compliance = self.bulk.compliance(self.size)
+        return self.bulk.on(compliance), compliance
 
     def half_width(self, gap: float) -> float:
         """Return half the arc on which an untilted shaft presses, where its least gap is ``gap`` [m].
 
         It ends where the pressure is a hundredth of the largest; NaN for surfaces that do not curve.
         """
-        table, clearance = self.table, self.clearance
+        table, clearance = self._under(gap)[0], self.clearance
         peak = float(pressure_and_damping(table, gap / self.roughness)[0])
         pressing = int((table.nodes[:, 0] > _EDGE * peak).sum())
         edge = self.roughness * (table.h_first + (pressing - 1) / table.inverse_step)

@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import TIME, Table, names, slices
 from tribodyn.kernels.film.quantities import FILM, FILM_PEAKS
-from tribodyn.kernels.joints.surface.quantities import PEAKS
+from tribodyn.kernels.joints.surface.quantities import PEAKS, PLASTIC
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
 from tribodyn.mechanism.model.reversals import PEAKS as REVERSAL_PEAKS
 from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
@@ -165,7 +165,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     ),
     **{
         quantity.name: Variable(quantity.unit, f"{quantity.meaning}, of each surface", ("surface",))
-        for quantity in PEAKS
+        for quantity in (*PEAKS, PLASTIC)
     },
     **{
         quantity.name: Variable(quantity.unit, f"{quantity.meaning}, of each joint", ("joint",))

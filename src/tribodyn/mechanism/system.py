@@ -3,6 +3,7 @@
 One file because all of it is asked of one object, which computes assembly, start and maps once.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -16,6 +17,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
+from tribodyn.kernels.joints.surface.quantities import PLASTIC
 from tribodyn.mechanism.analyses.analysis import NOTES, analysed
 from tribodyn.mechanism.analyses.ideal_motion import compared, led_along
 from tribodyn.mechanism.analyses.sampling import sampled
@@ -434,7 +436,10 @@ class MechanismSystem:
         if not self.real:
             return {}
         peaks: Any = run.problem.memory.contact.peaks
-        return {name: np.where(np.isfinite(peaks[name]), peaks[name], np.nan) for name in peaks.dtype.names}
+        found = {name: np.where(np.isfinite(peaks[name]), peaks[name], np.nan) for name in peaks.dtype.names}
+        if all(math.isinf(clearance.hardness) for clearance in self.model.clearances.values()):
+            del found[PLASTIC.name]
+        return found
 
     def _coordinates(self, run: FinishedRun, vibrations: Vibrations) -> dict[str, ArrayLike]:
         parts: dict[str, ArrayLike] = {

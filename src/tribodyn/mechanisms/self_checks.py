@@ -92,6 +92,15 @@ def instant(time: float, begins: Iterable[float] = (), impact_time: float = 0.0)
     return f"{words}, in the impact after {event}"
 
 
+def of_plastic(share: float, when: str) -> list[str]:
+    """Return a remark on the largest share of a contact that carried the hardness; nothing without one."""
+    words = (
+        f"Up to {100 * share:.2g} % of the contact area carried the hardness {when}: the bulk flows there. "
+        "The pressure is bounded by the hardness; what stays deformed is not computed, nor wear of it."
+    )
+    return [words] if share > 0.0 else []
+
+
 def of_load(loading: Mapping[str, float], when: str) -> list[str]:
     """Return remarks on the load on the surfaces; empty texts without any.
 

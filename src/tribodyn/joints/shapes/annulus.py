@@ -1,6 +1,6 @@
 """A flat ring across the axis: collars, flanges, end faces. It pushes and never pulls."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -55,7 +55,8 @@ class Annulus:
         rho, weight = across(self.inner, self.outer, n_rho)
         ones = np.ones(rho.size)
         rings = Rings(rho, self.height * ones, 0.0 * ones, self.direction * ones, rho * weight)
-        return rings.surface(name, ("rho", rho), self.clearance, n_theta, AXIS)
+        surface = rings.surface(name, ("rho", rho), self.clearance, n_theta, AXIS)
+        return replace(surface, size=0.5 * (self.outer - self.inner))
 
     def points(self) -> Points:
         """Refuse a point contact."""

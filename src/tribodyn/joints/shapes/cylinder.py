@@ -15,6 +15,7 @@ from tribodyn.joints.form import Form
 from tribodyn.joints.shapes.annulus import Annulus
 from tribodyn.joints.shapes.rings import Rings, with_edges
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive
+from tribodyn.kernels.joints.surface.bulk import RING
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 ENDS = {"upper": 1.0, "lower": -1.0}
@@ -126,7 +127,14 @@ class Cylinder:
         rings = Rings(self.radius * ones, z, ones, 0.0 * ones, (self.radius + self.clearance) * weight)
         barrel = rings.surface("barrel", ("z", z), self.clearance + self.form.gap(z, length), n_theta, AXIS)
         measured = self.form.measured(barrel.axes["theta"], z).ravel()
-        barrel = replace(barrel, gap=barrel.gap + measured, slides=lean > 0.0, lean=lean)
+        barrel = replace(
+            barrel,
+            gap=barrel.gap + measured,
+            slides=lean > 0.0,
+            lean=lean,
+            extent=RING,
+            size=self.bore_radius,
+        )
         return (
             barrel,
             *(

@@ -76,6 +76,7 @@ class Mesh:
                 rows=patches(position, normal, area),
                 tilt=WHOLE,
                 slides=bool(self.slides),
+                size=float(np.sqrt(area.sum() / np.pi)),
                 axes={"node": np.arange(area.size, dtype=np.float64)},
             ),
         )

@@ -5,7 +5,7 @@ beside it the gap opens by R (1 − cos λ). Nodes travel with the ball.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes.rings import Rings, across
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
+from tribodyn.kernels.joints.surface.bulk import HOLE, RACE
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
 
 
@@ -48,7 +49,8 @@ class Sphere:
         bore = self.radius + self.clearance
         strip = bore * bore * weight
         rings = Rings(self.radius * cosine, self.radius * sine, cosine, sine, strip)
-        return (rings.surface("race", ("latitude", portable.asin(sine)), self.clearance, n_theta, NO_TILT),)
+        surface = rings.surface("race", ("latitude", portable.asin(sine)), self.clearance, n_theta, NO_TILT)
+        return (replace(surface, extent=RACE, size=bore, room=self.clearance),)
 
     def points(self) -> Points:
         """Return the one sphere; its force acts wherever the ball is, on the race or beside it."""
@@ -91,7 +93,8 @@ class Ball:
             self.radius * portable.cos(latitude), z, ones, 0.0 * ones, (self.radius + self.clearance) * weight
         )
         gap = self.clearance + self.radius * (1.0 - portable.cos(latitude))
-        return (rings.surface("ball", ("latitude", latitude), gap, n_theta, NO_TILT),)
+        surface = rings.surface("ball", ("latitude", latitude), gap, n_theta, NO_TILT)
+        return (replace(surface, extent=HOLE, size=self.radius + self.clearance, room=self.clearance),)
 
     def points(self) -> Points:
         """Refuse a point contact: its laws are for a sphere in a sphere, and for cylinders."""

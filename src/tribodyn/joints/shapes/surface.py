@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.kernels.joints.surface.bulk import FACE
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,9 @@ class Surface:
         Whether the nodes stay where they are on the socket while the shaft slides through it.
     lean
         Radius ρ of the second-order term of the tilt [m], see ``kernels/joints/surface/tilt.py``.
+    extent, size, room
+        How the compliance of elastic bodies follows its contact, see ``kernels/joints/surface/bulk.py``;
+        radius of the bore, or half the width of a face, and the clearance of a ball [m].
     opens
         How much of a change of the radial clearance and of the play along the axis its gaps gain [1].
     """
@@ -51,6 +55,9 @@ class Surface:
     slides: bool = False
     lean: float = 0.0
     opens: tuple[float, float] = (1.0, 0.0)
+    extent: float = FACE
+    size: float = 0.0
+    room: float = 0.0
 
     @property
     def field_shape(self) -> tuple[int, ...]:

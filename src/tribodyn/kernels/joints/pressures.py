@@ -21,7 +21,9 @@ from tribodyn.kernels.lanes import WIDTH, load, rows, store, total, zeros
 
 
 @kernel
-def fill_pressures(cubics: FloatArray, v_min: float, clip: float, work: FloatArray, n: int) -> None:
+def fill_pressures(
+    cubics: FloatArray, v_min: float, clip: float, most: float, work: FloatArray, n: int
+) -> None:
     """Fill ``RIGID``, ``DAMPING`` and ``PRESSURE`` of the ``n`` nodes in the list.
 
     Parameters
@@ -32,6 +34,8 @@ def fill_pressures(cubics: FloatArray, v_min: float, clip: float, work: FloatArr
         Lower bound of entry velocities [m/s].
     clip
         1 if the total pressure must not be tensile.
+    most
+        Largest pressure [Pa].
     work
         Columns of the list.
     n
@@ -45,12 +49,13 @@ def fill_pressures(cubics: FloatArray, v_min: float, clip: float, work: FloatArr
     for k in range(whole(n)):
         reference = reference_velocity(work[ENTRY + k], work[APPROACH + k], v_min)
         ratio = work[APPROACH + k] / reference
-        work[PRESSURE + k] = total_pressure(work[RIGID + k], work[DAMPING + k], ratio, clip)
+        pressure = total_pressure(work[RIGID + k], work[DAMPING + k], ratio, clip)
+        work[PRESSURE + k] = most if pressure > most else pressure
 
 
 @kernel
 def fill_slopes(
-    cubics: FloatArray, scale: float, v_min: float, clip: float, work: FloatArray, n: int
+    cubics: FloatArray, scale: float, v_min: float, clip: float, most: float, work: FloatArray, n: int
 ) -> None:
     """Fill ``STIFFNESS`` and ``RESISTANCE`` of the ``n`` nodes in the list, whose pressures are filled.
 
@@ -72,6 +77,8 @@ def fill_slopes(
             v_min,
             clip,
         )
+        if work[PRESSURE + k] >= most:
+            work[STIFFNESS + k] = work[RESISTANCE + k] = 0.0
 
 
 @kernel

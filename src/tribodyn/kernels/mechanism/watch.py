@@ -51,7 +51,7 @@ def _watch_surfaces(
     """Note the first surface of a joint that is beyond its contact law, or whose shaft has left it."""
     for s in range(joints.joints[j], joints.joints[j + 1]):
         surface = joints.surfaces[s]
-        if memory.reports[s].separation_min < surface.h_first * surface.roughness:
+        if memory.reports[s].separation_min < surface.deepest:
             course.broken, course.broken_at = OVERLAPPED, s
             return
         if hypot(d[0], d[1]) > surface.reach[0] or abs(d[2]) > surface.reach[1]:

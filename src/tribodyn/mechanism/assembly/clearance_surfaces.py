@@ -1,5 +1,6 @@
 """The surfaces of joints with clearance, from the keys of a case."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final, TypeAlias
@@ -10,6 +11,7 @@ from tribodyn.cases.case import demand, unit
 from tribodyn.cases.groups import Surfaces
 from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
+from tribodyn.contact.bulk import Bulk
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.joints import Friction
@@ -20,11 +22,13 @@ from tribodyn.lubrication import Film
 from tribodyn.mechanism.frames import GROUND, cross, frame
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.pairs import PairKeys
-from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys
+from tribodyn.mechanism.model.parts import CONFORMAL, NOTHING, ClearanceKeys, JointKeys
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.bushing import Bearing
 
 _Round: TypeAlias = Cylinder | Sphere | Ball
+_COARSE: Final = (12, 2)
+"""A grid, whose surfaces are as large as those of any."""
 NOT_WORN: Final[Mapping[str, float]] = {}
 
 
@@ -96,19 +100,26 @@ def _clearance(
     contact, surfaces = pair.contact, pair.surface_pair
     law = contact.law_of(surfaces)
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
+    table = table_of(
+        keys.contact,
+        law,
+        shape,
+        onset=contact.onset_separation,
+        smoothing_width=contact.smoothing_width,
+        liner=liner,
+    )
+    bulk = None
+    if keys.under == CONFORMAL:
+        size = max(surface.size for surface in shape.surfaces(_COARSE))
+        bulk = Bulk(table, surfaces.roughness_rms, surfaces.composite_modulus, size)
     return Clearance(
         shape=shape,
         grid=_grid(case, keys, shape.clearance),
         roughness=surfaces.roughness_rms,
         law=law,
-        table=table_of(
-            keys.contact,
-            law,
-            shape,
-            onset=contact.onset_separation,
-            smoothing_width=contact.smoothing_width,
-            liner=liner,
-        ),
+        table=table,
+        hardness=math.inf if keys.under == NOTHING else surfaces.hardness,
+        bulk=bulk,
         friction_coefficient=keys.friction_coefficient,
         slip_velocity=keys.slip_velocity,
         onset=contact.onset_separation,

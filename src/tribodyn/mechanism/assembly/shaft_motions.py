@@ -186,7 +186,7 @@ def nodes_of(joints: SurfaceData, couplings: IntArray) -> list[JointNodes]:
                 drawn=nodes[:, GAP],
                 roughness=np.repeat(surfaces["roughness"], counts),
                 slides=np.repeat(surfaces["slides"], counts),
-                deepest=np.repeat(surfaces["h_first"] * surfaces["roughness"], counts),
+                deepest=np.repeat(surfaces["deepest"], counts),
                 lean=np.repeat(surfaces["lean"], counts),
                 slip=float(max(surfaces["slip_velocity"].max(), _TINY)),
             )

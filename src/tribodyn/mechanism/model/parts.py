@@ -2,7 +2,7 @@
 
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, Final, Self
+from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
 from tribodyn.cases.case import NamedGroup, demand, dot, unit
 from tribodyn.cases.fields import Vector, choice, count, name, names, number, quantity, switch, vector
@@ -35,6 +35,8 @@ def check_film(joint: Any) -> None:
     demand(not clearance.temperature.tables, "clearance.temperature.over_time", words)
 
 
+CONFORMAL, SLEEVE, NOTHING = "conformal", "sleeve", "none"
+"""Bodies under the asperities of a clearance: elastic ones, a liner, and rigid ones."""
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 _LEAST_ANGLE: Final = 1e-3
 """Sine of the least angle between two axes that must not be parallel."""
@@ -86,6 +88,13 @@ class ClearanceKeys(_OfAllShapes):
         "",
         example="steel-ptfe",
     )
+    bulk: Literal["conformal", "sleeve", "none"] | None = choice(
+        None,
+        "what yields under the asperities: both bodies, the sleeve of liner, or nothing; "
+        "without it nothing, or the sleeve where liner has a thickness",
+        "",
+        example="conformal",
+    )
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
     temperature: ChangingTemperature = ChangingTemperature()
@@ -101,9 +110,24 @@ class ClearanceKeys(_OfAllShapes):
         """Check sizes against each other."""
         super().model_post_init(context)
         self.liner.check_contact(self.contact, "")
+        self._check_bulk()
         if self.radius is not None and self.radial is not None:
             words = "the clearance must not exceed a tenth of the radius"
             demand(self.radial <= 0.1 * self.radius, "radial", words)
+
+    @property
+    def under(self) -> str:
+        """What lies under the asperities."""
+        default = NOTHING if self.liner.thickness is None else SLEEVE
+        return NOTHING if self.contact != SURFACE else self.bulk or default
+
+    def _check_bulk(self) -> None:
+        words = f'a sleeve needs its thickness, such as liner.thickness = "1 mm"; or bulk = "{CONFORMAL}"'
+        demand(self.bulk != SLEEVE or self.liner.thickness is not None, "liner.thickness", words)
+        words = f'liner.thickness makes a sleeve: leave it out, or bulk = "{SLEEVE}"'
+        demand(self.bulk in (None, SLEEVE) or self.liner.thickness is None, "bulk", words)
+        words = f'a contact at points is elastic by itself: leave bulk out, or contact = "{SURFACE}"'
+        demand(self.bulk in (None, NOTHING) or self.contact == SURFACE, "bulk", words)
 
     def with_nodes(self, around: int, along: int) -> Self:
         """Return the clearance with so many nodes, or with its own where those are fewer."""

@@ -17,9 +17,17 @@ from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
+from tribodyn.kernels.joints.surface.quantities import PLASTIC
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanisms.bushing import loading
-from tribodyn.mechanisms.self_checks import instant, named, of_contact, of_damping_pressure, of_load
+from tribodyn.mechanisms.self_checks import (
+    instant,
+    named,
+    of_contact,
+    of_damping_pressure,
+    of_load,
+    of_plastic,
+)
 from tribodyn.wear import resampled
 
 _NOTED: Final = 4
@@ -110,7 +118,8 @@ class Contacts:
                 keys=f"joints.{name.partition(':')[0]}.clearance.nodes_around and nodes_along",
             )
             when = instant(float(peaks["pressure_peak_time"][s]))
-            messages += named(name, [*of_surface, *of_load(load, when)])
+            plastic = of_plastic(float(peaks[PLASTIC.name][s]) if PLASTIC.name in peaks else 0.0, when)
+            messages += named(name, [*of_surface, *(plastic or of_load(load, when))])
         return messages
 
     def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:
@@ -224,7 +233,8 @@ def _touch(clearance: Clearance, place: Place) -> Touch:
     shape, radial, bore = clearance.shape, np.nan, np.nan
     if isinstance(shape, (Cylinder, Sphere, Ball)) and not place.surface.name.endswith("face"):
         radial, bore = shape.clearance, shape.radius + shape.clearance
-    return Touch(clearance.roughness, clearance.table, clearance.contact, clearance.liner, radial, bore)
+    of_law = clearance.roughness, clearance.table, clearance.contact, clearance.liner
+    return Touch(*of_law, radial, bore, clearance.bulk, place.surface.size)
 
 
 def _resampled(depth: FloatArray, place: Place, there: Place) -> FloatArray:

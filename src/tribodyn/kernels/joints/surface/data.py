@@ -38,6 +38,8 @@ Surface: Final = record_type(
     *((name, "f8") for name in ("onset", "minimum_entry_velocity", "tensile_clip")),
     *((name, "f8") for name in ("tilt", "slides", "lean", "along", "torque_radius", "area")),
     *((name, "f8") for name in ("points", "radius", "clearance")),
+    *((name, "f8") for name in ("hardness", "deepest", "levels", "softness", "growth", "extent", "bore")),
+    ("pitch", "i8"),
     ("heights", "f8", (N_POINTS,)),
     ("reach", "f8", (2,)),
     ("opens", "f8", (2,)),
@@ -72,6 +74,11 @@ area
 points, radius, clearance, heights
     Of a contact at points: their number, 0 for contact over the surface; radius of the shaft and radial
     clearance [m]; heights of their centres along the axis [m]. The table then holds the force of a point [N].
+hardness, deepest
+    Largest pressure [Pa], and least gap [m] at which the law holds.
+levels, pitch, softness, growth, extent, bore
+    Of elastic bodies under the asperities, see ``bulk``: N, 0 where they are rigid or a liner; intervals of
+    one level's table; q M^¼ [1]; dC/dq over q σ [1/Pa]; how C follows the contact; radius of the bore [m].
 reach
     How far the shaft may be displaced across and along the axis [m]; beyond, it has left its socket.
 opens

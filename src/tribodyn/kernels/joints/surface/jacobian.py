@@ -48,14 +48,14 @@ def wrench_and_derivatives(
     """Fill ``normal``, ``friction`` and their derivatives in the scratch; arguments as for ``wrench``."""
     scratch = memory.scratch
     work, cubics, mu = scratch.listed.work, table_of(data, surface).cubics, surface.friction_coefficient
-    v_min, clip = surface.minimum_entry_velocity, surface.tensile_clip
+    v_min, clip, most = surface.minimum_entry_velocity, surface.tensile_clip, surface.hardness
     scale = surface.inverse_step / surface.roughness
     clear_sums(scratch)
     rewind(surface, memory)
     n = gather(data, surface, memory, station)
     while n > 0:
-        fill_pressures(cubics, v_min, clip, work, n)
-        fill_slopes(cubics, scale, v_min, clip, work, n)
+        fill_pressures(cubics, v_min, clip, most, work, n)
+        fill_slopes(cubics, scale, v_min, clip, most, work, n)
         fill_forces(surface, work, station, n)
         _fill_weights(mu, slip_square(surface), work, n)
         add_columns(work, FORCE, NORMAL, n, -1.0, scratch.normal)

@@ -83,7 +83,7 @@ def fill_report(data: SurfaceData, s: int, memory: SurfaceMemory) -> None:
         point.add_points(data, s, memory, memory.scratch.station, 0.0, 1.0)
     else:
         over_surface.report(data, s, memory, memory.scratch.station)
-    memory.reports[s].expansion_power = -memory.scratch.station.v_opening * memory.scratch.rigid_load
+    memory.reports[s].expansion_power -= memory.scratch.station.v_opening * memory.scratch.rigid_load
 
 
 @kernel

@@ -26,8 +26,10 @@ HEAT: Final = OTHERS + 18 * PITCH
 POWER: Final = OTHERS + 19 * PITCH
 TOUCHING: Final = OTHERS + 20 * PITCH
 CLIPPED: Final = OTHERS + 21 * PITCH
-"""Of the report: P_c |s|, power of damping and of friction [W/m²]; 1 in contact, and where it pulls."""
-N_WORK: Final = OTHERS + 22 * PITCH
+PLASTIC: Final = OTHERS + 22 * PITCH
+"""Of the report: P_c |s|, power of damping and of friction [W/m²]; 1 in contact, where
+it pulls, and at the hardness."""
+N_WORK: Final = OTHERS + 23 * PITCH
 
 Listed: Final = record_type(("work", "f8", (N_WORK,)), ("node", "i8", (PART,)), ("cursor", "i8", (2,)))
 """The list. Nothing is carried from one call of a kernel to the next.

@@ -19,11 +19,11 @@ from tribodyn.kernels.joints.surface.station import Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
 from tribodyn.kernels.lanes import WIDTH
 
-BLOCK_GROUPS: Final = 18 * WIDTH
+BLOCK_GROUPS: Final = 26 * WIDTH
 """Begins of the groups of the block."""
 COLUMNS: Final = 12
 """Lanes of a group."""
-N_SUMS: Final = 90
+N_SUMS: Final = 105
 """Sums over the nodes of a ring for derivatives, see ``ring_slopes``."""
 
 Scratch: Final = record_type(
@@ -133,5 +133,6 @@ def note_peaks(data: SurfaceData, memory: SurfaceMemory, j: int, t: float, h: fl
             peaks.contact_force_peak, peaks.contact_force_peak_time = force, t
         if report.p_max > peaks.pressure_peak:
             peaks.pressure_peak, peaks.pressure_peak_time = report.p_max, t
+        peaks.plastic_share = max(peaks.plastic_share, report.plastic_share)
         peaks.separation_least = min(peaks.separation_least, report.separation_min)
         peaks.tensile_clip_time += h * report.tensile_clip_share

@@ -33,6 +33,9 @@ REPORTED: Final = (
 )
 """The report of an instant."""
 
+PLASTIC: Final = Quantity("plastic_share", "1", "share of the contact area that carries the hardness", ())
+"""At an instant, and the largest of a run."""
+
 PEAKS: Final = (
     Quantity("contact_force_peak", "N", "largest contact force at any accepted step", ()),
     Quantity("contact_force_peak_time", "s", "when the contact force was largest", ()),
@@ -43,5 +46,5 @@ PEAKS: Final = (
 )
 """Over all accepted steps; output times would miss them."""
 
-Report = of_table(REPORTED)
-Peaks = of_table(PEAKS)
+Report = of_table((*REPORTED, PLASTIC))
+Peaks = of_table((*PEAKS, PLASTIC))

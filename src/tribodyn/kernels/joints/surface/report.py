@@ -18,6 +18,7 @@ from tribodyn.kernels.joints.surface.listed import (
     FORCE,
     HEAT,
     NORMAL,
+    PLASTIC,
     POWER,
     SLIDING,
     SLIP,
@@ -53,6 +54,7 @@ def report(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) ->
     out.contact_fraction = contact / surface.area
     if contact > 0.0:
         out.tensile_clip_share /= contact
+        out.plastic_share /= contact
 
 
 @kernel
@@ -60,12 +62,12 @@ def _add_patches(data: SurfaceData, s: int, memory: SurfaceMemory, station: Reco
     """Add the sums over the nodes of patches to the report; return the nearest place in the table."""
     surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
     table, work, kept = table_of(data, surface), scratch.listed.work, 0
-    v_min, clip = surface.minimum_entry_velocity, surface.tensile_clip
+    v_min, clip, most = surface.minimum_entry_velocity, surface.tensile_clip, surface.hardness
     nearest, out.p_max = math.inf, 0.0
     rewind(surface, memory)
     n = gather(data, surface, memory, station)
     while n > 0:
-        fill_pressures(table.cubics, v_min, clip, work, n)
+        fill_pressures(table.cubics, v_min, clip, most, work, n)
         fill_forces(surface, work, station, n)
         out.energy_contact += surface.roughness * _energy(table, surface, work, n)
         nearest = min(nearest, _fill_terms(surface, work, n, out))
@@ -136,6 +138,7 @@ def _fill_terms(surface: Record, work: FloatArray, n: int, out: Record) -> float
         touching = 1.0 if place < onset else 0.0
         work[TOUCHING + k] = touching
         work[CLIPPED + k] = touching if p <= 0.0 else 0.0
+        work[PLASTIC + k] = 1.0 if p >= surface.hardness else 0.0
     out.p_max = highest
     return nearest
 
@@ -151,6 +154,7 @@ def _add_sums(surface: Record, scratch: Record, n: int, out: Record) -> None:
     out.friction_power += weighted_sum(work, AREA, POWER, n)
     out.contact_fraction += weighted_sum(work, AREA, TOUCHING, n)
     out.tensile_clip_share += weighted_sum(work, AREA, CLIPPED, n)
+    out.plastic_share += weighted_sum(work, AREA, PLASTIC, n)
 
 
 @kernel

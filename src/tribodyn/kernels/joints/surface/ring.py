@@ -212,6 +212,12 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
     return at
 
 
+@inlined
+def least_pressure(surface: Record) -> float:
+    """Return the least pressure, zero or none [Pa]."""
+    return 0.0 if surface.tensile_clip > 0.0 else -1.0e300
+
+
 @kernel
 def fill_pressures(
     data: SurfaceData, surface: Record, memory: SurfaceMemory, end: int, purpose: float
@@ -219,7 +225,7 @@ def fill_pressures(
     """Fill the pressures of the groups up to ``end``, and what else the ``purpose`` needs."""
     first, last, block = surface.first_interval, surface.last_interval, memory.block
     cubics, energy, step = data.cubics[8 * first : 8 * last], data.energy[first:last], surface.inverse_step
-    least, width = spread(0.0 if surface.tensile_clip > 0.0 else -1.0e300), spread(1.0 / step)
+    least, most, width = spread(least_pressure(surface)), spread(surface.hardness), spread(1.0 / step)
     half, third, quarter = spread(0.5), spread(1.0 / 3.0), spread(0.25)
     two, three, slope, zero = spread(2.0), spread(3.0), spread(step / surface.roughness), zeros()
     for at in range(BLOCK_GROUPS, end, STRIDE):
@@ -227,13 +233,16 @@ def fill_pressures(
         k_0, k_1, k_2, k_3, c_0, c_1, c_2, c_3 = rows_at(cubics, block, at + NUMBER)
         rigid, damping = k_0 + x * (k_1 + x * (k_2 + x * k_3)), c_0 + x * (c_1 + x * (c_2 + x * c_3))
         whole = rigid + damping * load(block, at + RATIO)
-        store(block, at + PRESSURE, above(least, whole, least, whole))  # this way round for NaN
+        bounded = above(least, whole, least, above(whole, most, most, whole))  # this way round for NaN
+        store(block, at + PRESSURE, bounded)
         if purpose == DERIVATIVES:
             stiffness = k_1 + x * (two * k_2 + x * (three * k_3))
             stiffness += load(block, at + RATIO) * (c_1 + x * (two * c_2 + x * (three * c_3)))
             resistance = damping * load(block, at + FOLLOWING)
-            store(block, at + STIFFNESS, above(least, whole, zero, slope * stiffness))
-            store(block, at + RESISTANCE, above(least, whole, zero, resistance))
+            store(
+                block, at + STIFFNESS, above(least, whole, zero, above(whole, most, zero, slope * stiffness))
+            )
+            store(block, at + RESISTANCE, above(least, whole, zero, above(whole, most, zero, resistance)))
         if purpose == REPORT:  # the energy as ``lookup.stored_energy`` has it
             k_1, k_2, k_3 = half * k_1, third * k_2, quarter * k_3
             left = k_0 + (k_1 + (k_2 + k_3)) - x * (k_0 + x * (k_1 + x * (k_2 + x * k_3)))

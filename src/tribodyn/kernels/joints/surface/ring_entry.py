@@ -9,6 +9,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
 from tribodyn.kernels.joints.surface.data import COS, GAP, SIN, SurfaceData
+from tribodyn.kernels.joints.surface.levels import fill_block
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import forget
 from tribodyn.kernels.joints.surface.ring import (
@@ -16,8 +17,6 @@ from tribodyn.kernels.joints.surface.ring import (
     STRIDE,
     WRENCH,
     does_bend,
-    fill_groups,
-    fill_pressures,
     motion_of,
     number_of_groups,
     place_of,
@@ -77,9 +76,7 @@ def pressure_field(
     block = memory.block
     for r in range(surface.first_row, surface.last_row, WIDTH):
         fill_windows(data, surface, memory, station, r, math.inf, 1.0)
-        fill_motion(data, surface, memory, station, r)
-        end = fill_groups(data, surface, memory, r, WRENCH)
-        fill_pressures(data, surface, memory, end, WRENCH)
+        fill_block(data, surface, memory, station, r, WRENCH)
         at = BLOCK_GROUPS
         for k in range(rings_from(surface, r)):
             number = number_of_groups(data.rows[r + k])

@@ -22,10 +22,12 @@ from typing import Any, Final, NamedTuple
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows
+from tribodyn.kernels.joints.surface.block import fill_windows
+from tribodyn.kernels.joints.surface.bulk import SLOPE
 from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.levels import fill_block
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.joints.surface.ring import DERIVATIVES, does_bend, fill_groups, fill_pressures
+from tribodyn.kernels.joints.surface.ring import DERIVATIVES, does_bend
 from tribodyn.kernels.joints.surface.ring_slopes import (
     FIVE,
     PULLED,
@@ -34,9 +36,18 @@ from tribodyn.kernels.joints.surface.ring_slopes import (
     SLIPS,
     STIFF,
     TRACTIONS,
+    WIDENED,
     fill_sums,
 )
-from tribodyn.kernels.joints.surface.ring_sums import Ring, Tractions, four_rings, no_traction
+from tribodyn.kernels.joints.surface.ring_sums import (
+    Ring,
+    Tractions,
+    four_rings,
+    no_pressure,
+    no_traction,
+    with_pressures_of,
+    with_tractions_of,
+)
 from tribodyn.kernels.joints.surface.ring_terms import (
     Five,
     Three,
@@ -55,7 +66,8 @@ from tribodyn.kernels.joints.surface.ring_terms import (
 from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces, with_ring
 from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals, zeros
 
-MATRIX: Final = 36 * WIDTH
+ROW: Final = 6 * WIDTH
+MATRIX: Final = 6 * ROW
 NORMAL_PLACE: Final = 0 * MATRIX
 NORMAL_RATE: Final = 1 * MATRIX
 FRICTION_PLACE: Final = 2 * MATRIX
@@ -85,15 +97,15 @@ def wrench_and_derivatives(
         store(scratch.ring_slopes, k, zeros())
     for r in range(surface.first_row, surface.last_row, WIDTH):
         if fill_windows(data, surface, memory, station, r, limit, 0.0) > 0:
-            fill_motion(data, surface, memory, station, r)
-            end = fill_groups(data, surface, memory, r, DERIVATIVES)
-            fill_pressures(data, surface, memory, end, DERIVATIVES)
+            fill_block(data, surface, memory, station, r, DERIVATIVES)
             fill_sums(data, surface, memory, r, rubs, bends)
             ring = four_rings(data.rings, r, spread(1.0))
             forces = _with_forces_of(forces, scratch, ring, surface.lean, rubs)
             _add_normal(scratch, ring, surface.lean, bends, surface.torque_radius * station.direction)
             if rubs > 0.0:
                 _add_friction(scratch, ring, surface.lean, bends)
+            if surface.levels > 0.0:
+                _add_widening(memory.block, scratch, ring, surface.lean, rubs)
     put_forces(surface, station, forces, scratch)
     mu = surface.friction_coefficient
     _put_matrix(scratch.ring_slopes, NORMAL_PLACE, 1.0, scratch.normal_place)
@@ -107,13 +119,13 @@ def wrench_and_derivatives(
 def _with_forces_of(forces: Forces, scratch: Record, ring: Ring, lean: float, rubs: float) -> Forces:
     """Return the sums with those of the four rings."""
     sums, phi = scratch.ring_sums, scratch.tilt.phi
-    tractions = _tractions(sums) if rubs > 0.0 else no_traction()
+    tractions = _tractions(sums, TRACTIONS) if rubs > 0.0 else no_traction()
     return with_ring(forces, ring, lean, phi, five_at(sums, PUSHES), tractions)
 
 
 @inlined
-def _tractions(sums: FloatArray) -> Tractions:
-    t, b = five_at(sums, TRACTIONS), five_at(sums, TRACTIONS + FIVE)
+def _tractions(sums: FloatArray, at: int) -> Tractions:
+    t, b = five_at(sums, at), five_at(sums, at + FIVE)
     return t[0], t[1], t[2], b[0], b[1], b[2]
 
 
@@ -209,6 +221,29 @@ def _add_friction(scratch: Record, ring: Ring, lean: float, bends: float) -> Non
         _add_row(slopes, out + 4 * row, ring, plain[4], armed[4])
         _add_row(slopes, out + 5 * row, ring, plain[5], armed[5])
     _add_slips(sums, slopes, ring)
+
+
+@kernel
+def _add_widening(block: FloatArray, scratch: Record, ring: Ring, lean: float, rubs: float) -> None:
+    """Add the wrench of ∂P_c/∂q of four rings times the derivatives of q."""
+    sums, slopes, at = scratch.ring_sums, scratch.ring_slopes, NORMAL_PLACE
+    x, y, z, m_x, m_y = with_pressures_of(no_pressure(), ring, lean, scratch.tilt.phi, five_at(sums, WIDENED))
+    _add_rows(block, slopes, at, zeros() - x, zeros() - y, zeros() - z)
+    _add_rows(block, slopes, at + 3 * ROW, m_x, zeros() - m_y, zeros())
+    if rubs > 0.0:
+        f = with_tractions_of(no_traction(), ring, _tractions(sums, WIDENED + FIVE))
+        _add_rows(block, slopes, FRICTION_PLACE, f[0], zeros() - f[1], zeros() - f[2])
+        _add_rows(block, slopes, FRICTION_PLACE + 3 * ROW, zeros() - f[3], f[4], zeros() - f[5])
+
+
+@inlined
+def _add_rows(block: FloatArray, slopes: FloatArray, at: int, a: Any, b: Any, c: Any) -> None:
+    """Add three rows: numbers times the derivatives of q."""
+    for k in range(0, 5 * WIDTH, WIDTH):
+        slope = load(block, SLOPE + k)
+        _add(slopes, at + k, a * slope)
+        _add(slopes, at + ROW + k, b * slope)
+        _add(slopes, at + 2 * ROW + k, c * slope)
 
 
 @inlined

@@ -9,8 +9,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels import extremes
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
+from tribodyn.kernels.joints.surface.block import fill_windows, groups_of, rings_from
+from tribodyn.kernels.joints.surface.bulk import CHANGE
 from tribodyn.kernels.joints.surface.data import RADIUS, SurfaceData
+from tribodyn.kernels.joints.surface.levels import PEAK, WIDENING, fill_block
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
     ALONG_UNIT,
@@ -27,8 +29,6 @@ from tribodyn.kernels.joints.surface.ring import (
     BentWave,
     Wave,
     does_bend,
-    fill_groups,
-    fill_pressures,
     motion_of,
     place_of,
 )
@@ -57,8 +57,9 @@ from tribodyn.kernels.lanes import (
     zeros,
 )
 
-Terms = tuple[Any, Any, Any, Any, Any]
-"""Energy over σ, power of damping and of friction over −μ, area in contact, and area where it pulls."""
+Terms = tuple[Any, Any, Any, Any, Any, Any, Any]
+"""Energy over σ, power of damping and of friction over −μ, areas in contact, that pull and are plastic,
+and the power over σ of a contact that changes its extent on the energy."""
 Rest = tuple[Pressures, Any, Terms, Any, Any]
 """Sums of rigid pressures, ∫P_k dA, the terms, highest pressure and nearest place in the table."""
 
@@ -68,16 +69,14 @@ def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) 
     """Fill the sums over the nodes of rings in the report; return the nearest place in the table."""
     surface, out, scratch = data.surfaces[s], memory.reports[s], memory.scratch
     limit, kept = surface.h_last * surface.roughness, first_kept(surface)
-    forces, terms = no_forces(), (zeros(), zeros(), zeros(), zeros(), zeros())
+    forces, terms = no_forces(), (zeros(), zeros(), zeros(), zeros(), zeros(), zeros(), zeros())
     rest = no_pressure(), zeros(), terms, zeros(), spread(math.inf)
     for r in range(surface.first_row, surface.last_row, WIDTH):
         found = fill_windows(data, surface, memory, station, r, limit, 1.0)
         for k in range(rings_from(surface, r)):
             memory.reached[r + k, 0], memory.reached[r + k, 1] = groups_of(memory.block, k)
         if found > 0:
-            fill_motion(data, surface, memory, station, r)
-            end = fill_groups(data, surface, memory, r, REPORT)
-            fill_pressures(data, surface, memory, end, REPORT)
+            fill_block(data, surface, memory, station, r, REPORT)
             forces, rest = _with_rings(forces, rest, data.rings, surface, memory, station, r, kept)
             kept += WIDTH * found
     put_forces(surface, station, forces, scratch)
@@ -106,9 +105,10 @@ def _with_rings(
     normal, pushed, terms, highest, nearest = rest
     onset = spread((surface.onset - surface.h_first) * surface.inverse_step + 1.0)
     torque, spins = station.direction * surface.torque_radius * station.w[2], surface.along == 0.0
+    elastic, hardness = surface.levels > 0.0, spread(surface.hardness)
     for k in range(rings_from(surface, r)):
         pressures, tractions, rigids, begin = no_pressure(), no_traction(), no_pressure(), at
-        energy, touched, pulled = zero, zero, zero
+        energy, touched, pulled, plastic, widening = zero, zero, zero, zero, zero
         spin = absolute(spread(station.w[2] * rings[RADIUS, r + k]))
         at += STRIDE * groups_of(block, k)[1]
         for group in range(begin, at, STRIDE):
@@ -121,7 +121,11 @@ def _with_rings(
             energy = energy + load(block, group + ENERGY)
             touching = above(onset, position, one, zero)
             touched, pulled = touched + touching, pulled + above(p, zero, zero, touching)
-            highest, nearest = larger(highest, p), smaller(nearest, position)
+            plastic = plastic + above(hardness, p, zero, one)
+            if elastic:
+                widening = widening + load(block, group + WIDENING)
+            highest = larger(highest, load(block, group + PEAK) if elastic else p)
+            nearest = smaller(nearest, position)
             store(memory.sliding, kept, p * (spin if spins else load(block, group + SPEED)))
             kept += WIDTH
         ring, phi, motion = one_ring(rings, r + k), memory.scratch.tilt.phi, motion_of(block, k)
@@ -136,6 +140,8 @@ def _with_rings(
             terms[2] + area * (spread(torque) * pressures[0] if surface.torque_radius > 0.0 else power),
             terms[3] + area * touched,
             terms[4] + area * pulled,
+            terms[5] + area * plastic,
+            terms[6] + area * (spread(block[CHANGE + k]) * widening if elastic else widening),
         )
     return forces, (normal, pushed, terms, highest, nearest)
 
@@ -159,6 +165,7 @@ def _put_terms(surface: Record, sums: Terms, out: Record) -> None:
     out.damping_power = total(sums[1])
     out.friction_power = -surface.friction_coefficient * total(sums[2])
     out.contact_fraction, out.tensile_clip_share = total(sums[3]), total(sums[4])
+    out.plastic_share, out.expansion_power = total(sums[5]), surface.roughness * total(sums[6])
 
 
 @inlined

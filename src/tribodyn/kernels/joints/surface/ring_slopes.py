@@ -7,7 +7,7 @@ each lane.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
@@ -21,6 +21,7 @@ from tribodyn.kernels.joints.surface.ring import (
     COSINE,
     PER_SPEED,
     PRESSURE,
+    RATIO,
     RESISTANCE,
     SINE,
     STIFFNESS,
@@ -41,6 +42,8 @@ TRACTIONS: Final = 7 * FIVE
 """Of P_c times these slips."""
 SLIPS: Final = 9 * FIVE
 """Of P_c/q times 1 − t², t b and 1 − b², where t and b are these slips."""
+WIDENED: Final = 18 * FIVE
+"""Of ∂P_c/∂q, see ``bulk``, and of it times these slips."""
 SQUARED: Final = 11 * FIVE
 """Distance to the sums of the same weight times cos² θ, of ∂P_c/∂h and ∂P_c/∂δ̇."""
 
@@ -75,10 +78,35 @@ def fill_sums(
             _sum_pulled(block, begin, at, 0.0, each, to + PULLED)
             if bends > 0.0:
                 _sum_pulled(block, begin, at, 1.0, each, to + PULLED + SQUARED)
-    area, other = load(data.rings[NODE_AREA], r), WIDTH * N_SUMS
-    for at in range(0, other if bends > 0.0 else SQUARED + FIVE, WIDTH):
+        if surface.levels > 0.0:
+            _sum_widened(block, begin, at, each, to + WIDENED)
+    area = load(data.rings[NODE_AREA], r)
+    _total(each, area, 0, WIDENED if bends > 0.0 else SQUARED + FIVE)
+    if surface.levels > 0.0:
+        _total(each, area, WIDENED, WIDTH * N_SUMS)
+
+
+@inlined
+def _total(each: FloatArray, area: Any, first: int, end: int) -> None:
+    """Make the sums of each ring in four lanes those of four rings, times the area of their nodes."""
+    other = WIDTH * N_SUMS
+    for at in range(first, end, WIDTH):
         a, b, c = load(each, at), load(each, other + at), load(each, 2 * other + at)
         store(each, at, area * totals(a, b, c, load(each, 3 * other + at)))
+
+
+@kernel
+def _sum_widened(block: FloatArray, begin: int, end: int, each: FloatArray, to: int) -> None:
+    """Fill the sums of the derivative in q; ``levels`` has put it in the place of the ratio."""
+    pushes, around, along = no_pressure(), no_pressure(), no_pressure()
+    for group in range(begin, end, STRIDE):
+        c, s, p = load(block, group + COSINE), load(block, group + SINE), load(block, group + RATIO)
+        t, b = load(block, group + AROUND_UNIT), load(block, group + ALONG_UNIT)
+        pushes = with_pressure(pushes, p, 1.0, c, s)
+        around, along = with_pressure(around, p * t, 1.0, c, s), with_pressure(along, p * b, 1.0, c, s)
+    _put(pushes, each, to)
+    _put(around, each, to + FIVE)
+    _put(along, each, to + 2 * FIVE)
 
 
 @inlined

@@ -7,8 +7,9 @@ from typing import Any
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
+from tribodyn.kernels.joints.surface.block import fill_windows, groups_of, rings_from
 from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.joints.surface.levels import fill_block
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
     ALONG_UNIT,
@@ -19,8 +20,6 @@ from tribodyn.kernels.joints.surface.ring import (
     STRIDE,
     WRENCH,
     does_bend,
-    fill_groups,
-    fill_pressures,
 )
 from tribodyn.kernels.joints.surface.ring_sums import (
     Pressures,
@@ -48,9 +47,7 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
     limit, forces = surface.h_last * surface.roughness, no_forces()
     for r in range(surface.first_row, surface.last_row, WIDTH):
         if fill_windows(data, surface, memory, station, r, limit, 0.0) > 0:
-            fill_motion(data, surface, memory, station, r)
-            end = fill_groups(data, surface, memory, r, WRENCH)
-            fill_pressures(data, surface, memory, end, WRENCH)
+            fill_block(data, surface, memory, station, r, WRENCH)
             forces = with_forces_of(forces, data.rings, surface, memory, r)
     put_forces(surface, station, forces, memory.scratch)
 

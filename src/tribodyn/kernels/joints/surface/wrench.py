@@ -46,10 +46,11 @@ def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
         normal[k] = friction[k] = 0.0
     work, cubics = memory.scratch.listed.work, table_of(data, surface).cubics
     v_min, clip, mu = surface.minimum_entry_velocity, surface.tensile_clip, surface.friction_coefficient
+    most = surface.hardness
     rewind(surface, memory)
     n = gather(data, surface, memory, station)
     while n > 0:
-        fill_pressures(cubics, v_min, clip, work, n)
+        fill_pressures(cubics, v_min, clip, most, work, n)
         fill_forces(surface, work, station, n)
         add_columns(work, FORCE, NORMAL, n, -1.0, normal)
         add_columns(work, FORCE, SLIP, n, -mu, friction)
