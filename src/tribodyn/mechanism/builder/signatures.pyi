@@ -240,6 +240,7 @@ class Signatures:
         slip_velocity: str | None = ...,
         contact: str | None = ...,
         pair: str | None = ...,
+        bulk: str | None = ...,
         liner: Table | None = ...,
         form: Table | None = ...,
         temperature: Table | None = ...,
