@@ -6,8 +6,6 @@ What it cannot do itself (functions in Python, large matrices) it leaves to its 
 import ctypes
 from typing import Any, Final, NamedTuple
 
-import numpy as np
-
 from mebdf.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from mebdf.compiled.kernel import UNCOMPILED, Instruction, Kernel
 from mebdf.kernels import state as at
@@ -48,16 +46,16 @@ DEGREE: Final = 0
 N_COUNTS: Final = 4
 """Degree of the polynomial of the step, then evaluations, Jacobians and decompositions so far."""
 
-_EPS: Final = float(np.finfo(np.float64).eps)
-LOST: Final = _EPS**0.875
+# Roundings to the powers 7/8, 3/4, 1/4 and 1/2.
+LOST: Final = float.fromhex("0x1.6a09e667f3bcdp-46")
 """Change of a rate, relative to it, below which a variable is moved further at once: it is all rounding."""
-SMALL: Final = _EPS**0.75
+SMALL: Final = 2.0**-39
 """Such a change below which it is moved further the next time."""
-LARGE: Final = _EPS**0.25
+LARGE: Final = 2.0**-13
 """Such a change above which it is moved less the next time."""
 STRIDE: Final = 10.0
 """Factor of a longer and of a shorter move."""
-LEAST: Final = _EPS**0.5
+LEAST: Final = 2.0**-26
 """Shortest move relative to the size of a variable: rounding is the larger error of a shorter one.
 
 Where large rates cancel, a move that is right changes their sum by much.
