@@ -18,6 +18,7 @@ from tribodyn.mechanism.sections.load_arrows import load_arrows
 from tribodyn.mechanism.sections.shafts import Shafts
 from tribodyn.views.encode import packed
 from tribodyn.views.magnified import magnification
+from tribodyn.views.numbers import fitting, in_words
 from tribodyn.views.playback import playback_times
 
 _SUSTAINED: Final = 99.0
@@ -129,7 +130,8 @@ def _arrows(
     if not 0.0 < scale < np.inf:
         return {}
     shown = [name for name, size in sizes.items() if size > 0.0]
-    about = {"label": label, "unit": unit, "scale": scale}
+    of, factor = fitting(unit, [scale])
+    about = {"label": label, "words": f"{in_words(scale * factor, 2)} {of}", "scale": scale}
     at = {name: packed(vectors[name]) for name in shown}
     return {
         kind: about | {"at": at, "points": {name: packed(points[name]) for name in shown if name in points}}

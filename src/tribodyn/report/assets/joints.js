@@ -96,8 +96,8 @@ function addCoil(solid, data, points, frame, colour) {
 }
 
 /** Return the button that shows arrows of a kind; its words say what an arrow of full length represents. */
-function arrowButton({ arrows }, kind, { label: what, unit: of, scale }, changed) {
-  const label = `${what} ${number(scale, 2)} ${of}`;
+function arrowButton({ arrows }, kind, { label: what, words }, changed) {
+  const label = `${what} ${words}`;
   const made = button(
     label,
     () => {
