@@ -8,7 +8,7 @@ ROOT: Final = Path(__file__).parents[3]
 DOCS: Final = ROOT / "docs"
 SOLVER: Final = ROOT / "packages" / "mebdf" / "README.md"
 REMOVED: Final = (
-    re.compile(r"<!-- table: .*?<!-- end -->", re.DOTALL),
+    re.compile(r"<!-- (?:table|made): .*?<!-- end -->", re.DOTALL),
     re.compile(r"<!--= .*?<!--/-->"),
     re.compile(r"\A---\n.*?^---\n", re.DOTALL | re.MULTILINE),
     re.compile(r"^```.*?^```[^\n]*$", re.DOTALL | re.MULTILINE),
