@@ -17,7 +17,6 @@ from tribodyn.cli.console import complain, forgive_encodings, show_json, silence
 from tribodyn.cli.interrupt import end, signals_heard
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import LONGEST, as_given, brief, closest
-from tribodyn.core.versions import unexpected
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -226,4 +225,6 @@ def _in_words(error: BaseException) -> str:
         return f"writing or reading failed: {brief(error, 2 * LONGEST)}"
     if isinstance(error, MemoryError):
         return "there is not enough memory for this run"
+    from tribodyn.core.versions import unexpected
+
     return f"{unexpected(error)} (--debug shows where it arose)"

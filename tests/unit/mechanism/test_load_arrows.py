@@ -70,7 +70,9 @@ def test_the_scene_has_an_arrow_of_every_load_that_is_not_zero() -> None:
     payload = data(given.assign_attrs(case=case.to_toml()))
     assert payload is not None
     loads = payload["forces"]["load_force"]
-    assert (loads["label"], loads["unit"]) == ("Load forces", "N")
+    assert loads["label"] == "Load forces"
+    size, unit = loads["words"].split()
+    assert (float(size), unit) == (pytest.approx(loads["scale"], rel=0.05), "N")
     forces, points = (loads[key]["work"].array.reshape(-1, 3) for key in ("at", "points"))
     np.testing.assert_allclose(forces, along(7.0 + 0.0 * points[:, 0], 0.0, 0.0))
     # The slider moves by twice the crank.

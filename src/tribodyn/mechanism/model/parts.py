@@ -117,7 +117,7 @@ class ClearanceKeys(_OfAllShapes):
 
     @property
     def under(self) -> str:
-        """What lies under the asperities."""
+        """Kind of body under the asperities."""
         default = NOTHING if self.liner.thickness is None else SLEEVE
         return NOTHING if self.contact != SURFACE else self.bulk or default
 
