@@ -69,7 +69,7 @@ def draw_stribeck(target: Path) -> None:
     case = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
     curve = td.stribeck(case, np.geomspace(0.5, 3000.0, 60)).isel(viscosity=0)
     figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.6, 5.0), sharex=True, layout="constrained")
-    least = int(np.argmin(curve.friction_coefficient))
+    least = int(curve.friction_coefficient.argmin("speed"))
     top.loglog(curve.speed, curve.friction_coefficient, color="black")
     top.plot(curve.speed[least], curve.friction_coefficient[least], "o", mfc="white", mec="black")
     top.set(ylabel="friction coefficient [1]")
