@@ -17,7 +17,7 @@ class Kernels(BuildHookInterface[Any]):
     """Puts the library into wheels; on systems that have none, kernels are compiled where they run."""
 
     def dependencies(self) -> list[str]:
-        """Return what a build needs besides: a linker for another system."""
+        """Return the package that a build for another system needs: a linker."""
         return ["ziglang>=0.13"] if "MEBDF_SYSTEM" in os.environ else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:

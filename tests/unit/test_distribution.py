@@ -1,4 +1,4 @@
-"""What is published: one version and one list of dependencies, in whatever form a packager reads them."""
+"""Published metadata: one version and one list of dependencies, in whatever form a packager reads them."""
 
 import re
 import tomllib

@@ -306,7 +306,7 @@ class MechanismSystem:
                 **transmitted(self.model, found.couplings),
                 **power_columns(self.model, found.couplings),
                 **temperature_effects.radial_clearances(self.model, run.solution.t),
-                **(spring_columns(self.case, motion_of(found)) if self.case.springs else {}),
+                **(spring_columns(self.case, observed_motion(found)) if self.case.springs else {}),
                 **of_outputs,
                 **vibrations.columns,
                 **{name: values for name, values in found.whole.items() if name not in _IN_BALANCE},
@@ -397,7 +397,7 @@ class MechanismSystem:
         """Return outputs with their ideal values and errors, and notes; nothing without outputs."""
         if not self.outputs:
             return {}, ()
-        motion = motion_of(found)
+        motion = observed_motion(found)
         path = DrivePath(run.solution.t, self.case.turn)
         rest = partial(at_rest, self.assembly, path) if self._analysis == "static" else None
         columns, notes = compared(
@@ -482,7 +482,7 @@ class MechanismSystem:
         return film_maps(run.problem.data.films, pictures)
 
 
-def motion_of(found: Observed) -> Motion:
+def observed_motion(found: Observed) -> Motion:
     """Return the motion of all bodies that was observed."""
     return Motion(**{name: found.bodies[name] for name in MOTION})
 

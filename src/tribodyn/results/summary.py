@@ -82,6 +82,7 @@ class KeyResult:
 
 
 Summary: TypeAlias = dict[str, float | int | str | list[str]]
+"""Key results and texts of a run, as in ``summary.json``."""
 
 
 class _Numbers(Summary):
@@ -97,9 +98,6 @@ class _Numbers(Summary):
 def name_today(name: str) -> str:
     """Return the name of a key result, also for one that it had earlier."""
     return name.replace("_lasting", "_sustained")
-
-
-"""Key results and texts of a run, as in ``summary.json``."""
 
 
 def _real_time_factor(dataset: xr.Dataset) -> float:
