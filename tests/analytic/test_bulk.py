@@ -1,10 +1,13 @@
 """Elastic bodies under the asperities: limits, bounds, and mechanisms that stopped without them."""
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Callable
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from tests.faults.random_mechanisms import drawn
 from tests.faults.test_random_mechanisms import BEYOND, wrong
 
@@ -49,6 +52,26 @@ def test_a_constant_compliance_is_a_liner(
         assert found["energy_contact"] == pytest.approx(expected["energy_contact"], rel=1e-6)
 
 
+def test_a_tilted_pin_does_no_work_around_a_loop(
+    make_clearance: Callable[..., Clearance], table_1_pair: SurfacePair
+) -> None:
+    rigid = make_clearance("cylinder", coefficient=0.0)
+    bulk = Bulk(rigid.table, rigid.roughness, table_1_pair.composite_modulus, rigid.shape.bore_radius)
+    data = assemble([dataclasses.replace(rigid, bulk=bulk)])
+    memory, clearance = new_memory(data), rigid.shape.clearance
+    corners = clearance * np.array([[0.9, 0.0], [1.5, 0.0], [1.5, 1.0], [0.9, 1.0], [0.9, 0.0]])
+    corners[:, 1] /= rigid.shape.length
+    path = np.concatenate([np.linspace(a, b, 200, endpoint=False) for a, b in itertools.pairwise(corners)])
+    path = np.vstack([path, corners[-1:]])
+    forces, stored = np.empty_like(path), np.empty(len(path))
+    for k, (off, tilt) in enumerate(path):
+        report(data, memory, 0, pose_at([off, 0.0, 0.0], Rotation.from_rotvec([0.0, tilt, 0.0]).as_matrix()))
+        found = memory.reports[0]
+        forces[k], stored[k] = (found["F_kx"], found["M_ky"]), found["energy_contact"]
+    work = 0.5 * np.sum((forces[1:] + forces[:-1]) * np.diff(path, axis=0))
+    assert abs(work) < 1e-4 * stored.max()  # what 200 trapezia to a side leave
+
+
 def test_stiff_bodies_are_rigid_ones(make_clearance: Callable[..., Clearance]) -> None:
     rigid = make_clearance("cylinder")
     stiff = Bulk(rigid.table, rigid.roughness, 1e20, rigid.shape.bore_radius)
@@ -84,8 +107,7 @@ def test_mechanisms_go_on_where_asperities_end(seed: int) -> None:
             if "clearance" in joint:
                 joint["clearance"]["bulk"] = bulk
         found[bulk] = td.simulate(drawing.case())
-        # What a contact stores while it widens is integrated over steps: three miss more than 1 % of energy.
-        assert not [word for word in wrong(drawing, found[bulk]) if not word.startswith("energy")]
+        assert not wrong(drawing, found[bulk])
     assert BEYOND in found["none"].attrs["failure"]
     assert not found["conformal"].attrs["failure"]
 
@@ -93,7 +115,8 @@ def test_mechanisms_go_on_where_asperities_end(seed: int) -> None:
 def test_energy_of_a_slider_crank_is_accounted_for() -> None:
     case = td.load_case("slider-crank")
     rigid, elastic = (td.simulate(case.replace({f"{WRIST}.bulk": bulk})) for bulk in ("none", "conformal"))
-    assert elastic.attrs["energy_residual"] < 1e-3
+    assert elastic.attrs["energy_residual"] < 1e-4
+    assert np.ptp(elastic["energy_expansion"].values) > 0.01 * np.ptp(elastic["energy_stored"].values)
     assert "plastic_share" in elastic
     assert "plastic_share" not in rigid
 

@@ -128,3 +128,31 @@ def test_hertz(make_clearance: Callable[..., Clearance], table_1_pair: SurfacePa
     found, pressure = Bore(make_clearance, table_1_pair, 1e-10).under(force)
     assert pressure == pytest.approx(2.0 * force / (math.pi * angle), rel=0.01)
     assert found == pytest.approx(angle, abs=math.pi / 2048)  # as fine as nodes are
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize("slope", [0.003, 0.03, 0.3])
+def test_sections_of_a_tilted_pin_are_those_of_a_long_one(slope: float) -> None:
+    """A cylinder of radius 1 leans on a half-space of modulus 1; it ends where it is deepest."""
+    pytest.importorskip("ContactMechanics")
+    from ContactMechanics import FreeFFTElasticHalfSpace
+    from ContactMechanics.Systems import NonSmoothContactSystem
+    from SurfaceTopography import Topography
+
+    n, sizes = 128, (6.0 * math.sqrt(2.0 * slope), 1.6)
+    x, z = ((np.arange(n) + 0.5) / n * size for size in sizes)
+    heights = slope * (z - sizes[1])[None, :] - 0.5 * (x - 0.5 * sizes[0])[:, None] ** 2
+    system = NonSmoothContactSystem(
+        FreeFFTElasticHalfSpace((n, n), 1.0, sizes), Topography(heights, physical_sizes=sizes)
+    )
+    load = 0.25 * math.pi * slope * (2.0 * slope) ** 0.2  # so that contacts are about as long as 1
+    result = system.minimize_proxy(external_force=load, pentol=1e-8 * slope, maxiter=2000)
+    assert result.success
+    cell = sizes[0] * sizes[1] / n**2
+    pressures = np.abs(system.substrate.force[:n, :n]) / cell
+    for section in (n - n // 4, n - n // 3):
+        pressure = pressures[:, section]
+        per_length, largest = pressure.sum() * sizes[0] / n, pressure.max()
+        half = 0.5 * sizes[0] / n * np.count_nonzero(pressure > 1e-3 * largest)
+        assert half == pytest.approx(math.sqrt(4.0 * per_length / math.pi), rel=0.1)
+        assert largest == pytest.approx(2.0 * per_length / (math.pi * half), rel=0.1)

@@ -185,7 +185,7 @@ VARIABLES: Final[dict[str, Variable]] = {
     "drive_power": Variable("W", "power of drives, motors and controllers of the joint", (*TIME, "joint")),
     "energy_in": Variable("J", "work of drives and loads since the start"),
     "energy_loads": Variable("J", "work of loads since the start"),
-    "energy_expansion": Variable("J", "work of temperatures on contacts since the start"),
+    "energy_expansion": Variable("J", "work of temperatures and of widening on contacts since the start"),
     "energy_damping": Variable("J", "heat of dampers and of damping in contact"),
     "energy_friction": Variable("J", "heat of friction since the start"),
     "energy_film": Variable("J", "heat of oil films since the start"),

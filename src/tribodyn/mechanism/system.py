@@ -276,9 +276,9 @@ class MechanismSystem:
         found = self._observed(run)
         of_outputs, notes_of_outputs = self._of_outputs(found, run)
         vibrations = self._vibrations(found, run)
-        balance = balance_columns(
-            found.whole, oiled=bool(self.model.oiled), opening=any(temperature_effects.opens(self.model))
-        )
+        widens = any(real.bulk is not None for real in self.model.clearances.values())
+        opening = widens or any(temperature_effects.opens(self.model))
+        balance = balance_columns(found.whole, oiled=bool(self.model.oiled), opening=opening)
         least = mechanism_problem.least_energy(
             self.assembly, found.couplings["reaction_force"], self.case.solver.rtol
         )

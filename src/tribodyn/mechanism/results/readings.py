@@ -110,7 +110,7 @@ TERMS: Final = {
 def balance_columns(whole: Mapping[str, FloatArray], *, oiled: bool, opening: bool) -> dict[str, FloatArray]:
     """Return the energy columns [J], each of shape (n_t,), from what is observed of the whole.
 
-    Those of films and of clearances that follow temperatures are left out where there are none.
+    Those of films, and of contacts that widen or follow temperatures, are left out where there are none.
     """
     left_out = {"energy_film": not oiled, "energy_expansion": not opening}
     terms = {name: term for name, term in TERMS.items() if not left_out.get(name, False)}

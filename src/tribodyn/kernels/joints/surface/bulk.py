@@ -1,18 +1,18 @@
 """Elastic bodies under the asperities of a surface: a compliance that follows the extent of the contact.
 
 Under a pressure p the surface sinks by C p, as on a liner, but C belongs to the present size of the contact.
-With the eccentricity e of a ring, its room c without wear, the slope e' = de/dz, and the least gap x = c − e,
+With the eccentricity e of a ring, its room c without wear, and the least gap x = c − e,
 
     r = √(x² + (2 D₀ σ)²),    D = (r − x)/2,    y = D/(c + D) = 1 − cos α:
 
 D is the overlap of two circles, rounded by the asperities, and α half the angle on which they touch. Then
 
-    C = R/(E √M),    M = 1/g(y)² + (κ R e'/β r)²,    g(y) = √(2 y) (a₀ + a₁ y + …).
+    C = R/(E √M),    M = 1/g(y)²,    g(y) = √(2 y) (a₀ + a₁ y + …).
 
 g is that of a pin in an elastic bore, solved without the assumption of a foundation; with g → α/κ it is
-Hertz's line contact. The second term shortens the contact along the axis of a tilted pin to D/D' = r/e'. A
-ball in a race touches on a circle. A ball in a bore is as long as its own curvature lets it, κ² R/2D in M. Of
-a face C is constant.
+Hertz's line contact. C follows the eccentricity of its own ring, so that forces have a potential, tilted or
+not. A ball in a race touches on a circle. A ball in a bore is as long as its own curvature lets it, κ² R/2D
+in M. Of a face C is constant.
 
 Tables hold the law at levels q = 0, 1, … of C = (q/N)² C_soft. Between two of them the energy is a Hermite
 polynomial of q, for ∂W/∂C = −P²/2 is known, and pressures are its exact derivatives. The energy that it loses
@@ -41,8 +41,6 @@ KAPPA: Final = 3.0 * math.pi / 8.0
 """κ: stiffness per area of Hertz's line contact, times its half width, over E."""
 CAP: Final = 2.0 * (64.0 / (9.0 * math.sqrt(2.0) * math.pi**2)) ** 2
 """The same of Hertz's circle, (16/3π)/κ, squared."""
-LENGTH: Final = 2.0
-"""β: length of a tilted contact over D/D' that fits boundary elements."""
 ROUNDING: Final = 2.0
 """D₀: overlap of two rough circles that touch, over σ."""
 ARC: Final = (1.0 / KAPPA, 0.6883, -5.144, 9.262, -6.556)
@@ -79,58 +77,46 @@ def fill_bulk(
     slopes
         1 if ``CHANGE`` and ``SLOPE`` are filled, too.
     """
-    rings, block, phi, zero, one = data.rings, memory.block, memory.scratch.tilt.phi, zeros(), spread(1.0)
+    rings, block, zero, one = data.rings, memory.block, zeros(), spread(1.0)
     if surface.extent == FACE:
         _put_level(surface, block, spread(surface.softness / math.sqrt(KAPPA)))
         if slopes > 0.0:
             _put_slopes(block, (zero, zero, zero, zero, zero), zero, station.v, memory.scratch.tilt.rate)
         return
     n_r, arm = load(rings[N_RADIAL], r), load(rings[ARM], r)
-    phi_x, phi_y, opening = spread(phi[0]), spread(phi[1]), spread(station.opening)
+    opening = spread(station.opening)
     e_x, e_y = zero - load(block, NEARING + WIDTH), zero - load(block, NEARING + 2 * WIDTH)
     e_z, room = zero, opening + spread(surface.clearance)
-    cap, short, long = one, zero, zero
+    cap, short = one, zero
     if surface.extent == RING:
-        room, long = opening + load(rings[LEAST], r), spread(KAPPA / LENGTH * surface.bore)
+        room = opening + load(rings[LEAST], r)
     elif surface.extent == RACE:
         e_x, e_y, e_z = spread(station.d[0]), spread(station.d[1]), spread(station.d[2])
         n_r, arm, cap = one, zero, spread(CAP)
     else:
         short = spread(0.5 * KAPPA * KAPPA * surface.bore)
-    off_2 = e_x * e_x + e_y * e_y + e_z * e_z + spread(LEAST_SQUARE)
-    off, rounding = square_root(off_2), 2.0 * ROUNDING * surface.roughness
-    x = room - off
-    root_2 = x * x + spread(rounding * rounding)
-    root = square_root(root_2)
+    off = square_root(e_x * e_x + e_y * e_y + e_z * e_z + spread(LEAST_SQUARE))
+    x, rounding = room - off, 2.0 * ROUNDING * surface.roughness
+    root = square_root(x * x + spread(rounding * rounding))
     overlap = spread(0.5) * (root - x)
     across = room + overlap
     fit, fit_slope, follows = _arc(overlap / across)
     # Of overlaps beyond ``WIDEST`` the arc stays as it is.
     reaching = above(follows, zero, overlap, spread(WIDEST) * across)
     wide, brief = cap * across / (spread(2.0) * reaching * fit * fit), short / overlap
-    turned = e_x * phi_y - e_y * phi_x
-    lean_2 = turned * turned * long * long / (off_2 * root_2)
-    square = wide + brief + lean_2
+    square = wide + brief
     q = spread(surface.softness) / square_root(square_root(square))
     _put_level(surface, block, q)
     if slopes == 0.0:
         return
-    # Of M: in x at constant room, in the room, in e and in the product of e and the tilt.
-    own, two, inverse = spread(-0.25) * q / square, spread(2.0), one / across
-    in_y = zero - follows * wide * (across / overlap + two * fit_slope / fit)
-    in_x = two * lean_2 * x / root_2
-    in_x = (brief - in_y * room * overlap * inverse * inverse) / root - in_x
+    # Of M: in x at constant room, in the room, and in e over e.
+    own, inverse = spread(-0.25) * q / square, one / across
+    in_y = zero - follows * wide * (across / overlap + spread(2.0) * fit_slope / fit)
+    in_x = (brief - in_y * room * overlap * inverse * inverse) / root
     in_room = zero - in_y * overlap * inverse * inverse
-    in_off = (zero - in_x - two * lean_2 / off) / off
-    in_turned = two * turned * long * long / (off_2 * root_2)
-    in_e_x, in_e_y = own * (in_off * e_x + in_turned * phi_y), own * (in_off * e_y - in_turned * phi_x)
-    found = (
-        n_r * in_e_x,
-        n_r * in_e_y,
-        own * in_off * e_z,
-        zero - arm * in_e_y - own * in_turned * e_y,
-        arm * in_e_x + own * in_turned * e_x,
-    )
+    in_e = zero - own * in_x / off
+    in_e_x, in_e_y = in_e * e_x, in_e * e_y
+    found = (n_r * in_e_x, n_r * in_e_y, in_e * e_z, zero - arm * in_e_y, arm * in_e_x)
     change = own * (in_x + in_room) * spread(station.v_opening)
     _put_slopes(block, found, change, station.v, memory.scratch.tilt.rate)
 
