@@ -195,6 +195,10 @@ def _accept(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> None
     if places.size == 0 or state.equal_steps > 1:
         state.failures = 0
     state.wary = max(state.wary - 1, 0)
+    if state.trouble == 1 and state.differenced == 1:
+        # The Jacobian may be one of differences across a jump that now lies behind.
+        state.factored = 0.0
+        state.jacobian_age = int(state.settings.old_jacobian) + 1
     state.trouble = max(state.trouble - 1, 0)
     state.bad = -1
     state.worst = -1
