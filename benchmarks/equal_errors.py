@@ -20,7 +20,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib.resources import files
+from importlib import resources
 from importlib.util import find_spec
 from typing import Any, Final
 
@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 import tribodyn as td
 from benchmarks.peers import EVERY, PART, with_exudyn
 from benchmarks.vsv_case import RTOL, one
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.integrate import integrate
 from tribodyn.mechanism.mechanism_variables import observed
 from tribodyn.mechanism.system import MechanismSystem
@@ -81,8 +81,8 @@ def case(contact: str, cycles: float) -> Any:
     """Return ``vsv-free`` over some cycles, with the rough contact of its surfaces or a point contact."""
     if contact == "surface":
         return td.load_case("vsv-free").replace({"run.cycles": cycles})
-    folder = files("tribodyn.mechanism") / "built_in"
-    table = toml.parse((folder / "vsv-free.toml").read_text(encoding="utf-8"))
+    folder = resources.files("tribodyn.mechanism") / "built_in"
+    table = files.parse((folder / "vsv-free.toml").read_text(encoding="utf-8"))
     clearance = table["joints"]["trunnion"]["clearance"]
     for key in ("axial_upper", "flange"):
         del clearance[key]

@@ -18,7 +18,6 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final
 
@@ -36,10 +35,10 @@ LOWER_PLAY: Final = "50 um"
 def case(n: int, cycles: float = 1.0) -> Any:
     """Return the case of a ring of ``n`` vanes."""
     import tribodyn as td
-    from tribodyn.core import toml
+    from tribodyn.core import files
 
     folder = files("tribodyn.mechanism") / "built_in"
-    table = toml.parse((folder / "vsv-free.toml").read_text(encoding="utf-8"))
+    table = files.parse((folder / "vsv-free.toml").read_text(encoding="utf-8"))
     for name in ("case", "title", "outputs"):
         table.pop(name)
     table["run"] = {"cycles": cycles, "output_interval": "2 ms"}

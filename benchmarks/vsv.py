@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.peers import paired, peers, setting
 from benchmarks.vsv_case import NATIVE, RTOL, accurate, errors, one, reference
-from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE, balance_columns
+from tribodyn.papers.cheng_2022.reduced.checks import CLEARANCE, WHOLE, balance_columns
 
 SOLVERS = (NATIVE, "cvode", "bdf", "radau", "lsoda")
 LADDER = ((1e-3, 1.0), (1e-4, 1.0), (1e-4, 0.1), (1e-5, 0.1), (1e-5, 0.01))

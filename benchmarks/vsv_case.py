@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.integrate import integrate
 from tribodyn.integrate.driver import IntegrationTask
-from tribodyn.integrate.schedule import make_schedule
+from tribodyn.integrate.following import make_schedule
 from tribodyn.kernels.vsv.data import Mechanism, VsvData
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.catalogue import load_case

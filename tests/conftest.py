@@ -15,7 +15,7 @@ from mebdf import solver
 from mebdf.kernels import state
 from tribodyn.contact import SurfacePair, law, tabulate
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.integrate.driver import IntegrationTask, Stepwise
 from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid

@@ -9,8 +9,7 @@ import sys
 from pathlib import Path
 
 from tribodyn.validation.catalogue import chosen
-from tribodyn.validation.report import Judged, sets_table
-from tribodyn.validation.save import save
+from tribodyn.validation.report import Judged, save, sets_table
 
 
 def main() -> None:

@@ -175,7 +175,7 @@ class Accessor:
         --------
         >>> result.tribodyn.animate("press.gif")  # doctest: +SKIP
         """
-        from tribodyn.report.animation import animate
+        from tribodyn.report.figures import animate
 
         return animate(self._dataset, Path(path), seconds)
 

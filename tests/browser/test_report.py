@@ -15,7 +15,7 @@ import tribodyn as td
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.studies import Sampling, make_plan
-from tribodyn.studies.merge import merge
+from tribodyn.studies.archive import merge
 from tribodyn.views.playback import playback_times
 
 Opened = Callable[..., Any]

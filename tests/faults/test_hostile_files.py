@@ -16,7 +16,7 @@ import pytest
 from tests.faults.trial import tolerable, watched
 
 from tribodyn.cli.main import main
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
@@ -194,7 +194,7 @@ def test_texts_of_tens_of_megabytes_are_refused_early(tmp_path: Path) -> None:
     ],
 )
 def test_dots_and_brackets_in_texts_and_comments_are_no_depth(text: str) -> None:
-    assert toml.parse(text)
+    assert files.parse(text)
 
 
 @pytest.mark.parametrize(
@@ -209,7 +209,7 @@ def test_dots_and_brackets_in_texts_and_comments_are_no_depth(text: str) -> None
 )
 def test_depth_outside_of_texts_is_seen(text: str) -> None:
     with pytest.raises(ValueError, match="nested too deeply"):
-        toml.parse(text)
+        files.parse(text)
 
 
 def test_a_file_that_grows_while_it_is_read_is_not_read_on(

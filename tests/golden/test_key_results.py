@@ -18,7 +18,7 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import built_in
 from tribodyn.mechanisms.results import known, summarise
-from tribodyn.results.attributes import DATA_HASH, ROWS_HASH
+from tribodyn.results.dataset import DATA_HASH, ROWS_HASH
 
 STORED: Final = Path(__file__).with_name("key_results.json")
 HASHES: Final = Path(__file__).with_name("hashes.json")

@@ -27,9 +27,8 @@ from typing import Final
 from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.keys import Key, ValueProblem, shown
 from tribodyn.cases.units import UnitProblem, dimension, si_unit, to_si
-from tribodyn.core.delimited import is_comment, named, separator_of, with_points
 from tribodyn.core.errors import InputError
-from tribodyn.core.files import read_regular, text_of
+from tribodyn.core.files import is_comment, named, read_regular, separator_of, text_of, with_points
 from tribodyn.core.quoting import LONGEST, brief
 
 TABLE: Final = "table"

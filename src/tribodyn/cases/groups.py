@@ -12,7 +12,7 @@ from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Bounds, choice, count, file, number, quantity, switch, text
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.units import from_si
-from tribodyn.joints.resolution import resolving
+from tribodyn.joints.rows import resolving
 
 if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair

@@ -11,7 +11,7 @@ from typing import Any, Final
 from tribodyn.cases.case import Case, beside, build
 from tribodyn.cases.entry import Entry
 from tribodyn.cases.keys import shown
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.core.errors import MOST_FAULTS, InputError, together
 from tribodyn.core.files import read_regular, text_of
 from tribodyn.core.quoting import LONGEST, brief, closest, meant
@@ -142,7 +142,7 @@ class Known:
 
     kinds: Kinds
     built_in: Mapping[str, BuiltIn]
-    files: tuple[str, ...] = ()
+    begun_from: tuple[str, ...] = ()
 
     @property
     def names(self) -> list[str]:
@@ -152,7 +152,7 @@ class Known:
 
 def _of_file(name: str, known: Known) -> tuple[type[Case], dict[str, Entry]]:
     """Return the kind of case and the entries of a file, and of those that it begins with."""
-    known = replace(known, files=(*known.files, name))
+    known = replace(known, begun_from=(*known.begun_from, name))
     return _of_text(_text(name, known.built_in), name, Path(name).parent, known)
 
 
@@ -182,14 +182,14 @@ def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[typ
         words = f'this key is missing; write case = "{first}" at the top; known: {", ".join(known.names)}'
         raise InputError(words, key="case", source=source)
     name = entries["case"].value
-    if isinstance(name, str) and name.endswith(_FILE) and known.files:
+    if isinstance(name, str) and name.endswith(_FILE) and known.begun_from:
         return _base(name, entries["case"], known)
     if isinstance(name, str) and name in known.kinds:
         return known.kinds[name], {"case": entries["case"]}
     if isinstance(name, str) and name in known.built_in:
         return known.built_in[name].model, _given(name, known.built_in[name])
-    files = ", or another case file" if known.files else ""
-    allowed = f"{', '.join(known.names)}{files}{meant(str(name), known.names)}"
+    or_file = ", or another case file" if known.begun_from else ""
+    allowed = f"{', '.join(known.names)}{or_file}{meant(str(name), known.names)}"
     raise InputError(f"given {shown(name)}; allowed: {allowed}", key="case", source=source)
 
 
@@ -202,11 +202,11 @@ def _likeliest(paths: Iterable[str], kinds: Kinds) -> str:
 def _base(name: str, entry: Entry, known: Known) -> tuple[type[Case], dict[str, Entry]]:
     """Return the values of the case file that another one begins with."""
     path = os.fspath((entry.folder or Path()) / name)
-    if path in known.files:
+    if path in known.begun_from:
         raise InputError(
             f"given {shown(name)}: this file begins with itself", key="case", source=entry.source
         )
-    if len(known.files) > _MOST_BASES:
+    if len(known.begun_from) > _MOST_BASES:
         words = f"given {shown(name)}: more than {_MOST_BASES} files begin with one another"
         raise InputError(words, key="case", source=entry.source)
     return _of_file(path, known)
@@ -224,7 +224,7 @@ def _given(name: str, case: BuiltIn) -> dict[str, Entry]:
 def _text(name: str, built_in: Mapping[str, BuiltIn]) -> str:
     """Read a file as UTF-8 text."""
     try:
-        return _decoded(read_regular(Path(name), toml.LARGEST), name)
+        return _decoded(read_regular(Path(name), files.LARGEST), name)
     except FileNotFoundError:
         raise InputError(_no_such_file(name, built_in), source=name) from None
     except IsADirectoryError:
@@ -312,12 +312,12 @@ def _reasons(text: str, error: ValueError) -> Iterator[str]:
         if twice or hint:
             yield twice or f"line {number}: {hint}"
         elif not reported:
-            yield toml.in_braces(said) or brief(said, 2 * LONGEST)
+            yield files.in_braces(said) or brief(said, 2 * LONGEST)
         if not hint:
             return
         reported, lines[number - 1] = True, ""
         try:
-            toml.parse("\n".join(lines))
+            files.parse("\n".join(lines))
         except ValueError as further:
             error = further
         else:
@@ -327,8 +327,10 @@ def _reasons(text: str, error: ValueError) -> Iterator[str]:
 def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
     stem = PureWindowsPath(name).stem
     folder = Path(name).parent
-    files = [str(folder / file.name) for file in folder.glob("*.toml")] if folder.is_dir() else []
-    own = next((file for file in files if Path(file).stem == stem), None) or closest(name, files, cutoff=0.7)
+    beside_it = [str(folder / file.name) for file in folder.glob("*.toml")] if folder.is_dir() else []
+    own = next((file for file in beside_it if Path(file).stem == stem), None) or closest(
+        name, beside_it, cutoff=0.7
+    )
     near = own or (stem if stem in built_in else closest(name, built_in))
     hint = f"; did you mean {near}?" if near else ""
     return f"there is no such file, and no built-in case of this name (built in: {', '.join(built_in)}){hint}"
@@ -336,7 +338,7 @@ def _no_such_file(name: str, built_in: Mapping[str, BuiltIn]) -> str:
 
 def _tables(text: str, source: str) -> dict[str, Any]:
     try:
-        return toml.parse(text)
+        return files.parse(text)
     except ValueError as error:
         if other := _other_program(source, text):
             raise InputError(other, source=source) from None

@@ -83,8 +83,8 @@ def equivalent(*surfaces: MeasuredSurface) -> Equivalent:
     """Return the equivalent rough surface of one that is rough against a smooth trunnion, or of two."""
     from tribodyn.surfaces import asperities
 
-    moments = surfaces[0].moments if len(surfaces) == 1 else surfaces[0].moments + surfaces[1].moments
-    found = asperities(moments)
+    both = surfaces[0].moments if len(surfaces) == 1 else surfaces[0].moments + surfaces[1].moments
+    found = asperities(both)
     sigmas = [surface.sigma for surface in surfaces]
     names = " and ".join(Path(surface.surface.source).name for surface in surfaces)
     origin = f"{names}: {_in_words(surfaces[0].treatment)}"

@@ -11,7 +11,7 @@ import traceback
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Final, NoReturn, Protocol, cast
 
-from tribodyn.cli import log
+from tribodyn.cli import console
 from tribodyn.cli.commands import completion
 from tribodyn.cli.console import complain, forgive_encodings, show_json, silence_matplotlib
 from tribodyn.cli.interrupt import end, signals_heard
@@ -146,7 +146,7 @@ def _parser(names: Iterable[str]) -> _Parser:
         command.add_arguments(below)
         below.add_argument("--quiet", action="store_true", help="print errors and warnings only")
         below.add_argument("--json", action="store_true", help="print the outcome as JSON on stdout")
-        log.add_arguments(below)
+        console.add_arguments(below)
         below.add_argument("--debug", action="store_true", help="show where in the program an error arose")
     return parser
 
@@ -181,7 +181,7 @@ def _executed(arguments: Sequence[str]) -> int:
             parser.print_help()
             return DONE
         args = parser.understood(arguments)
-        with log.logged(args, arguments):
+        with console.logged(args, arguments):
             return _logged(args)
     except BrokenPipeError:
         # Whoever read our output has gone; nobody reads it any more.
@@ -200,7 +200,7 @@ def _logged(args: argparse.Namespace) -> int:
     try:
         return COMMANDS[args.command].execute(args)
     except Exception as error:
-        log.LOGGER.info("%s", _in_words(error), exc_info=args.debug)
+        console.LOGGER.info("%s", _in_words(error), exc_info=args.debug)
         raise
 
 

@@ -16,7 +16,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.contact.contact_law import DESIGN_PRESSURE
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
 _LONGEST: Final = 1.0e9

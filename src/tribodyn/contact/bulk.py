@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Final
 
 from tribodyn.contact.liner import lined
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.joints.surface.bulk import ARC, KAPPA, ROUNDING, WIDEST
 
 LEVELS: Final = 16

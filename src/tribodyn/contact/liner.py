@@ -24,7 +24,7 @@ import numpy as np
 
 from tribodyn.contact.table import table_of_nodes
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicHermiteSpline

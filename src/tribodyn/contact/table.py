@@ -10,7 +10,7 @@ from tribodyn.contact.bounce import calibrating_scale
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 
 H_FIRST: Final = -4.0
 H_LAST: Final = 8.0

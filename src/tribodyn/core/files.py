@@ -6,8 +6,10 @@ without waiting, and what was opened is looked at before anything is read from i
 
 import errno
 import os
+import re
 import stat
-from typing import BinaryIO, Final
+import tomllib
+from typing import Any, BinaryIO, Final
 
 _FLAGS: Final = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY")
@@ -103,3 +105,114 @@ def _refuse(found: os.stat_result, most: int) -> None:
 def _too_large(most: int) -> OSError:
     size, unit = next((size, unit) for size, unit in _UNITS if most >= size)
     return OSError(errno.EFBIG, f"the file is larger than {most / size:g} {unit}")
+
+
+SEPARATORS: Final = (";", "\t", ",")
+"""Separators of the fields of a line; the first one that occurs counts."""
+_COMMENTS: Final = ("#", "%", "//")
+"""Beginning of a comment line."""
+
+
+def is_comment(text: str) -> bool:
+    """Tell whether a line holds no numbers but says something."""
+    return text.lstrip().startswith(_COMMENTS)
+
+
+def separator_of(text: str) -> str:
+    """Return the separator of the fields of a line."""
+    return next((mark for mark in SEPARATORS if mark in text), ",")
+
+
+def with_points(text: str, separator: str) -> str:
+    """Return a line with points for commas, which are decimal commas where they do not separate fields."""
+    return text if separator == "," else text.replace(",", ".")
+
+
+def named(cell: str) -> tuple[str, str | None] | None:
+    """Return name and unit of a column as its header gives them, None where it cannot be one.
+
+    Examples
+    --------
+    >>> named('"Position (mm)"'), named("torque (net) [N m]"), named("x")
+    (('Position', 'mm'), ('torque (net)', 'N m'), ('x', None))
+    """
+    # Not by a regular expression: one that leaves blanks to three parts tries all divisions among them.
+    text = cell.strip().removeprefix('"').removesuffix('"').rstrip()
+    name, unit = text, None
+    if text.endswith("]"):
+        name, _, unit = text[:-1].partition("[")
+    elif text.endswith(")"):
+        before, opened, inside = text[:-1].rpartition("(")
+        name, unit = (before, inside) if opened and inside and ")" not in inside else (text, None)
+    if unit == "" or any(mark in name for mark in '[]"') or (text.endswith("]") and "]" in text[:-1]):
+        return None
+    return name.strip(), None if unit is None else unit.strip()
+
+
+LARGEST: Final = 1_000_000
+"""Length of a text that is parsed, at most; a case with all its comments has 15,000 characters."""
+DEEPEST: Final = 20
+"""Depth of tables, arrays and dotted keys, each at most; cases are four deep."""
+_MOST_MARKS: Final = 100_000
+"""Dots, brackets, commas, equals signs and lines, at most: a table costs up to a kilobyte for each."""
+
+_MARKS: Final = re.compile(
+    r'''
+    """(?>[^"\\]*+(?:(?:\\.|"{1,2}(?!"))[^"\\]*+)*)"{3,5}
+    | \'\'\'(?>[^']*+(?:'{1,2}(?!')[^']*+)*)'{3,5}
+    | "(?!"")(?>[^"\\\n]*+(?:\\.[^"\\\n]*+)*)"
+    | '(?!'')[^'\n]*+'
+    | \#[^\n]*+
+    | (?P<open>[\[{]) | (?P<close>[\]}]) | (?P<dot>\.) | (?P<next>[,=\n]) | (?P<broken>["'])
+    ''',
+    re.VERBOSE | re.DOTALL,
+)
+
+
+def parse(text: str) -> dict[str, Any]:
+    """Return the tables of a TOML text.
+
+    Parameters
+    ----------
+    text
+        Whatever somebody wrote.
+
+    Raises
+    ------
+    ValueError
+        It is not valid TOML, too long, too deep or has too many entries; the message says which.
+    """
+    if len(text) > LARGEST:
+        raise ValueError(f"longer than {LARGEST} characters")
+    _refuse_depth(text)
+    return tomllib.loads(text)
+
+
+def _refuse_depth(text: str) -> None:
+    """Refuse a text that would cost the parser much time or memory; linear in the length of the text."""
+    depth = dots = marks = 0
+    for match in _MARKS.finditer(text):
+        kind = match.lastgroup
+        if kind is None:
+            continue
+        if kind == "broken":
+            return
+        depth += (kind == "open") - (kind == "close")
+        dots = dots + 1 if kind == "dot" else 0
+        marks += 1
+        if max(depth, dots) >= DEEPEST:
+            raise ValueError(f"nested too deeply, more than {DEEPEST} levels")
+        if marks > _MOST_MARKS:
+            raise ValueError("too many entries")
+
+
+def in_braces(error: str) -> str:
+    """Return the message on a table in braces that is continued elsewhere; empty for any other error."""
+    if not error.startswith("Cannot declare ("):
+        return ""
+    *above, last = re.findall(r"'([^']*)'", error)
+    table = ".".join(above)
+    words = (
+        f"{above[-1] if above else last} = {{...}} is closed by its brace, so [{table}.{last}] cannot follow"
+    )
+    return f"{words}; write [{table}] with a line for each key instead of the braces"

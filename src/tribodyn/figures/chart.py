@@ -15,9 +15,8 @@ from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import GREY, SMALL
 from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
 from tribodyn.views.coordinates import angle_of
-from tribodyn.views.events import impact_time, reversal_times
+from tribodyn.views.events import impact_time, reversal_times, series
 from tribodyn.views.playback import time_unit
-from tribodyn.views.series import series
 
 COLOURS: Final = {
     "ink": style.INK,

@@ -12,8 +12,7 @@ from tribodyn.figures import style
 from tribodyn.figures.chart import cut_off, mark_reversals
 from tribodyn.figures.figure_family import Family
 from tribodyn.views.charts import ChartCurve, Panel
-from tribodyn.views.events import impact_time, reversal_times
-from tribodyn.views.series import finite, peak, series
+from tribodyn.views.events import finite, impact_time, peak, reversal_times, series
 
 TITLE: Final = "Contact force on the trunnion"
 TOTAL: Final = "#b4b4b4"

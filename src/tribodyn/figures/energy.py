@@ -13,8 +13,8 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.views.energy_balance import EnergyBalance
+from tribodyn.views.events import finite, peak, series
 from tribodyn.views.playback import time_unit
-from tribodyn.views.series import finite, peak, series
 
 TITLE: Final = "Energy balances"
 LOOKS: Final = (

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.series import finite
+from tribodyn.views.events import finite
 
 INK: Final = "#1b1b1b"
 BLUE: Final = "#0072b2"

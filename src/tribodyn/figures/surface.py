@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tribodyn.figures import style
 from tribodyn.surfaces import MeasuredSurface
-from tribodyn.surfaces.spectrum import in_bands, spectra
+from tribodyn.surfaces.analysis import in_bands, spectra
 
 TITLE: Final = "Measured surface"
 _MICRO: Final = 1e6

@@ -21,8 +21,8 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
+from tribodyn.views.events import finite
 from tribodyn.views.numbers import as_read
-from tribodyn.views.series import finite
 
 SAMPLES: Final = "point"
 _COLOURS: Final = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.INK)

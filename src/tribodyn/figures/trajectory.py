@@ -12,8 +12,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.views.bushing_sections import centre
-from tribodyn.views.events import direction
-from tribodyn.views.series import finite, peak, signed
+from tribodyn.views.events import direction, finite, peak, signed
 
 TITLE: Final = "Trunnion trajectory in the clearance circle"
 

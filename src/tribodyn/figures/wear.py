@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
-from tribodyn.figures.unrolled import draw_map
-from tribodyn.views.series import series, signed
-from tribodyn.views.unrolled import WALL, best_cut, rolled, unloaded_middle, wall_angles, z_label
+from tribodyn.figures.pressure import draw_map
+from tribodyn.views.bushing import WALL, best_cut, rolled, unloaded_middle, wall_angles, z_label
+from tribodyn.views.events import series, signed
 from tribodyn.views.wear import PANELS, WEAR_HISTORY, fitting_unit, no_feedback
 
 TITLE: Final = "Wear depth of the bushing"

@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.integrate.cvode import CVODE
 from tribodyn.integrate.driver import INTERRUPTED, IntegrationTask, Integrator, Stepwise
+from tribodyn.integrate.following import make_schedule
 from tribodyn.integrate.mebdf import MEBDF as COMPILED_MEBDF
-from tribodyn.integrate.schedule import make_schedule
-from tribodyn.integrate.scipy_steps import BDF, LSODA, RADAU
+from tribodyn.integrate.scipy_steps import BDF, CVODE, LSODA, RADAU
 
 if TYPE_CHECKING:
     from mebdf import MEBDF

@@ -11,7 +11,7 @@ from tribodyn.contact.liner import Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record, names
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE

@@ -17,9 +17,9 @@ from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
+from tribodyn.core.remembered import ContactTable
 from tribodyn.core.signals import Signal
 from tribodyn.core.stopping import ask
-from tribodyn.core.tables import ContactTable
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
 from tribodyn.joints.rows import angles_of, rings_of, rows_of
 from tribodyn.joints.shapes import Points, Shape, Surface

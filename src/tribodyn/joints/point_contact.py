@@ -26,7 +26,7 @@ from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 
 INTERVALS: Final = 4096
 _ITERATIONS: Final = 8

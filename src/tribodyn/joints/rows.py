@@ -1,5 +1,6 @@
 """Rows of the nodes of all surfaces, and the angles of those that are rings, as kernels read them."""
 
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Final
@@ -12,6 +13,37 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.lanes import WIDTH
+
+AROUND: Final = 4.4
+ALONG: Final = 1.1
+"""Groups of nodes around and along for c = σ."""
+GROUP: Final = 4
+"""Kernels take so many nodes at once."""
+FEWEST: Final = (64, 16)
+"""Around and along, however narrow the clearance is: wear and measured forms have shapes of their own."""
+MOST: Final = (512, 128)
+"""Around and along, however wide the clearance is; a run says if its grid is too coarse."""
+
+
+def resolving(clearance: float, roughness: float) -> tuple[int, int]:
+    """Return the numbers of nodes around and along that resolve the contact.
+
+    Parameters
+    ----------
+    clearance
+        Radial clearance c at the temperatures of the run [m].
+    roughness
+        Combined rms roughness σ [m].
+
+    Examples
+    --------
+    >>> resolving(20e-6, 1.634e-6)
+    (64, 16)
+    """
+    ratio = math.sqrt(clearance / roughness)
+    around, along = (GROUP * math.ceil(factor * ratio) for factor in (AROUND, ALONG))
+    return min(max(around, FEWEST[0]), MOST[0]), min(max(along, FEWEST[1]), MOST[1])
+
 
 OUT_OF_REACH: Final = 1.0e3
 """Lift of a repeated node of a ring [m]."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from mebdf.kernels.elementary import portable
 from tribodyn.contact.bulk import Bulk
 from tribodyn.contact.liner import Liner
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.lookup import pressure_and_damping
 

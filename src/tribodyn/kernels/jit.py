@@ -11,7 +11,7 @@ from mebdf.kernels.jit import SOURCES as SOLVER
 
 SOURCES: Final = Sources(
     Path(__file__).parents[1],
-    ("kernels/**/*.py", "core/arrays.py", "core/quantities.py", "core/tables.py"),
+    ("kernels/**/*.py", "core/arrays.py", "core/quantities.py", "core/remembered.py"),
     listing=("tribodyn.kernels", "tribodyn.mechanism.elements"),
     below=(SOLVER,),
 )

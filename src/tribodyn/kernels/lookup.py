@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import entry, inlined
 
 

@@ -3,11 +3,11 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib.resources import files
+from importlib import resources
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn, flat
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
 from tribodyn.mechanism.results.joint_numbers import BY_JOINT
@@ -32,7 +32,7 @@ class Template:
     @property
     def title(self) -> str:
         """Heading of figures and report."""
-        return str(toml.parse(self.text)["title"])
+        return str(files.parse(self.text)["title"])
 
     @property
     def description(self) -> str:
@@ -62,7 +62,7 @@ class Template:
 
 def _files(folder: str) -> dict[str, Template]:
     """Return the files of a folder beside this one, by their names without the ending."""
-    found = sorted(files(__package__).joinpath(folder).iterdir(), key=lambda file: file.name)
+    found = sorted(resources.files(__package__).joinpath(folder).iterdir(), key=lambda file: file.name)
     return {file.name.removesuffix(".toml"): Template(file.read_text(encoding="utf-8")) for file in found}
 
 
@@ -77,7 +77,7 @@ GALLERY: Final = {name: template for name, template in TEMPLATES.items() if temp
 def _built_in() -> Iterator[tuple[str, BuiltIn]]:
     """Yield the built-in cases by the names of their files, with their titles."""
     for name, file in BUILT_IN.items():
-        yield name, BuiltIn(MechanismCase, file.title, dict(flat(toml.parse(file.text))))
+        yield name, BuiltIn(MechanismCase, file.title, dict(flat(files.parse(file.text))))
 
 
 MECHANISM: Final = MechanismDescriptor(

@@ -22,7 +22,7 @@ from tribodyn.cases.messages import Remarks
 from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_surfaces
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
-from tribodyn.joints.resolution import FEWEST
+from tribodyn.joints.rows import FEWEST
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.elements.controller import Controller, check_functions
 from tribodyn.mechanism.elements.element import ElementKeys
@@ -38,8 +38,7 @@ from tribodyn.mechanism.model.drives_and_loads import (
     given_of,
 )
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
-from tribodyn.mechanism.model.pairs import PairKeys, friction_of
-from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys
+from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys, friction_of
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
 from tribodyn.mechanisms.mechanism_protocol import plain

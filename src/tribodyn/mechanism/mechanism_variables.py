@@ -12,8 +12,16 @@ from tribodyn.kernels.film.quantities import FILM, FILM_PEAKS
 from tribodyn.kernels.joints.surface.quantities import PEAKS, PLASTIC
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
 from tribodyn.mechanism.model.reversals import PEAKS as REVERSAL_PEAKS
-from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
-from tribodyn.results.variables import FRAME, JUMP, STAGE, Variable, described, of_reversals_described
+from tribodyn.results.variables import (
+    FRAME,
+    JUMP,
+    OUTPUTS,
+    OUTPUTS_OF_CYCLE,
+    STAGE,
+    Variable,
+    described,
+    of_reversals_described,
+)
 
 AXES: Final = ("x", "y", "z")
 ENTRIES: Final = ("w", *AXES)

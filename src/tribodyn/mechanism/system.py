@@ -52,6 +52,7 @@ from tribodyn.mechanism.results.kept import (
     note,
 )
 from tribodyn.mechanism.results.maps import Maps
+from tribodyn.mechanism.results.mechanism_checks import of_slow_sliding
 from tribodyn.mechanism.results.output_columns import (
     error_growth,
     instant_errors,
@@ -59,7 +60,6 @@ from tribodyn.mechanism.results.output_columns import (
     output_coordinates,
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
-from tribodyn.mechanism.results.slow_sliding import of_slow_sliding
 from tribodyn.mechanism.results.springs import spring_columns
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
@@ -67,7 +67,7 @@ from tribodyn.mechanisms.output_numbers import lives
 from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.mechanisms.self_checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
-from tribodyn.results.attributes import CARRIED, NOT_KEPT
+from tribodyn.results.dataset import CARRIED, NOT_KEPT
 
 _STATES: Final = 13
 """Of a body."""

@@ -21,7 +21,7 @@ from tribodyn.cases import load
 from tribodyn.cases.case import Case
 from tribodyn.cases.entry import Entry
 from tribodyn.cases.load import BuiltIn
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
@@ -182,7 +182,7 @@ def _refuse_template(case: str | os.PathLike[str]) -> None:
 def templates() -> dict[str, str]:
     """Return the titles of the case files that ``tribodyn new`` writes, by name."""
     own = {name: text for mechanism in MECHANISMS.values() for name, text in mechanism.templates.items()}
-    titles = {name: str(toml.parse(text)["title"]) for name, text in own.items()}
+    titles = {name: str(files.parse(text)["title"]) for name, text in own.items()}
     return {**titles, **{name: case.summary for name, case in built_in().items() if name not in own}}
 
 

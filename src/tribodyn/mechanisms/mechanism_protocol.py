@@ -29,7 +29,7 @@ from tribodyn.results.variables import Variable
 if TYPE_CHECKING:
     from tribodyn.figures.figure_family import Animation, Family
     from tribodyn.mechanisms.bushing import Bearing
-    from tribodyn.views.overlay import Overlay
+    from tribodyn.views.common import Overlay
     from tribodyn.views.section import Chapter
 
 

@@ -15,7 +15,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.results import json_attribute, store, summary
-from tribodyn.results.attributes import NOT_KEPT
+from tribodyn.results.dataset import NOT_KEPT
 from tribodyn.results.reading import entries
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import VARIABLES

@@ -1,8 +1,9 @@
 """Loads of a case as the terms that kernels add up."""
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Final
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -10,7 +11,166 @@ from tribodyn.cases.beyond import lasts_a_cycle
 from tribodyn.cases.loads import BodyLoad
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, for_each_cycle, scaled, sinusoid
-from tribodyn.mechanisms.action_intervals import Factors, Term
+from tribodyn.kernels import actions as kinds
+from tribodyn.kernels.actions import Actions
+from tribodyn.kernels.arrays import new_records
+from tribodyn.mechanisms.signal_pieces import NO_KINKS, SignalList, pieces_of
+
+TIME: Final = 0
+"""The first of the coordinates that signals may follow."""
+WAVE_STEPS: Final = 24
+"""Steps in a wave of a load, at least: a longer step may see its zeros alone. What a wave lends a shaft and
+takes back is up to a hundred times what the contact turns into heat, so that a small delay of the steps would
+show in the balance."""
+_SAME: Final = 1.0e-12
+"""Instants closer than this share of a run are one."""
+_BEFORE: Final = 1.0e-9
+"""Share of the way to a kink by which a segment ends before it."""
+_BISECTIONS: Final = 60
+
+Factors: TypeAlias = tuple[tuple[Signal, int], ...]
+"""Signals that are multiplied, each with the number of the quantity that it follows."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A part of a load.
+
+    Attributes
+    ----------
+    target
+        Number of the component that it adds to.
+    factors
+        Up to three signals.
+    against
+        Whether it opposes the motion.
+    """
+
+    target: int
+    factors: Factors
+    against: bool = False
+
+
+def kinks_over(terms: Iterable[Term], over: int, reached: FloatArray) -> FloatArray:
+    """Return the kinks of signals over one coordinate, increasing; ``reached`` holds values of it."""
+    low, high = float(reached.min()), float(reached.max())
+    factors = [factor for term in terms for factor in term.factors]
+    found = [signal.kinks_within(low, high) for signal, follows in factors if follows == over]
+    return np.unique(np.concatenate([np.empty(0), *found]))
+
+
+def shortest_wave(terms: Iterable[Term]) -> float:
+    """Return the shortest period of a sinusoid over time among some loads [s]; infinite without one."""
+    waves = (s for term in terms for s, over in term.factors if over == TIME and s.kind == "sinusoid")
+    return min((2.0 * math.pi / abs(s.coefficients[2]) for s in waves if s.coefficients[2]), default=math.inf)
+
+
+def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Actions:
+    """Return the data of the kernels.
+
+    Parameters
+    ----------
+    signals
+        Those that the mechanism has numbered before.
+    terms
+        Its loads from tables.
+    segments
+        From :func:`segments_of`.
+    """
+    records = term_records(signals, terms)
+    return Actions(signals.records(), records, segments)
+
+
+def term_records(signals: SignalList, terms: Sequence[Term]) -> Any:
+    """Return terms as kernels read them, their signals numbered in the list, shape (n,)."""
+    records = new_records(len(terms), kinds.Term)
+    for record, term in zip(records, terms, strict=True):
+        record.target, record.against = term.target, int(term.against)
+        record.signals[:], record.over[:] = kinds.NONE, TIME
+        for k, (signal, over) in enumerate(term.factors):
+            of_time = signal.kinks if over == TIME else NO_KINKS
+            record.signals[k], record.over[k] = signals.add(pieces_of(signal), of_time), over
+    return records
+
+
+def inside(times: FloatArray, duration: float) -> FloatArray:
+    """Return the instants strictly inside a run of ``duration`` [s], each once, increasing."""
+    times = np.unique(times)
+    times = times[(times > 0.0) & (times < duration * (1.0 - _SAME))]
+    apart = np.diff(times, prepend=0.0) > _SAME * duration
+    return np.asarray(times[apart])
+
+
+def crossings(
+    coordinate: Callable[[FloatArray], FloatArray], turns: FloatArray, levels: FloatArray
+) -> FloatArray:
+    """Return the times at which a coordinate passes some values, shape (n,).
+
+    Parameters
+    ----------
+    coordinate
+        Its values at times [s].
+    turns
+        Times between which it grows or falls all the way, those of begin and end of the run among them.
+    levels
+        The values.
+    """
+    at = coordinate(turns)
+    level, begin, end = (
+        np.broadcast_to(x, (levels.size, turns.size - 1)) for x in (levels[:, None], turns[:-1], turns[1:])
+    )
+    passed = (at[:-1] - level) * (at[1:] - level) < 0.0
+    level, low, high = level[passed], begin[passed], end[passed]
+    rising = np.broadcast_to(at[1:] > at[:-1], passed.shape)[passed]
+    for _ in range(_BISECTIONS if level.size else 0):
+        middle = 0.5 * (low + high)
+        above = (coordinate(middle) > level) == rising
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return 0.5 * (low + high)
+
+
+def segments_of(
+    breaks: FloatArray,
+    directions: FloatArray,
+    time_kinks: FloatArray,
+    others: Sequence[tuple[FloatArray, FloatArray]] = (),
+) -> Any:
+    """Return the segments of a run as kernels read them, shape (n,).
+
+    Parameters
+    ----------
+    breaks
+        Instants between segments [s], increasing, shape (n - 1,).
+    directions
+        Direction of motion in each segment, shape (n,).
+    time_kinks
+        Where signals over time kink, those beyond the run among them [s].
+    others
+        Of each other coordinate its values in the middle of the segments, shape (n,), and where signals over
+        it kink.
+    """
+    segments = new_records(directions.size, kinds.Segment)
+    segments.begin = np.concatenate([[0.0], breaks])
+    segments.direction = directions
+    segments.low[:], segments.high[:] = -np.inf, np.inf
+    after = np.append(breaks, segments.begin[-1] + 1.0)
+    middles = 0.5 * (segments.begin + after)
+    middles[-1] = _just_after(segments.begin[-1], time_kinks)
+    for k, (values, kinks) in enumerate([(middles, np.union1d(breaks, time_kinks)), *others]):
+        ends = np.concatenate([[-np.inf], kinks, [np.inf]])
+        place = np.searchsorted(ends, values, side="right")
+        low, high = ends[place - 1], ends[np.minimum(place, ends.size - 1)]
+        with np.errstate(invalid="ignore"):
+            room = np.where(np.isfinite(high), _BEFORE * (high - np.maximum(low, values - 1.0)), 0.0)
+        segments.low[:, k], segments.high[:, k] = low, high - room
+    return segments
+
+
+def _just_after(t: float, kinks: FloatArray) -> float:
+    """Return a time after ``t`` [s] and before the next kink."""
+    later = kinks[kinks > t]
+    return float(0.5 * (t + later[0])) if later.size else t + 1.0
+
 
 Targets = Mapping[int, tuple[int, float]]
 """Number and sign of the load that a component is: 0 to 2 of the force, 3 to 5 of the right-handed moment."""

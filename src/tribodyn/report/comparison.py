@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import xarray as xr
 
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.mechanisms.results import all_there, known, mechanism_of, read, summarise
 from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
@@ -20,9 +20,8 @@ from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.atomic import write_text
 from tribodyn.results.store import POINTS, RESULT
 from tribodyn.results.summary import caution
-from tribodyn.views.common import in_common
+from tribodyn.views.common import in_common, overlays
 from tribodyn.views.numbers import fitting, in_words
-from tribodyn.views.overlay import overlays
 from tribodyn.views.section import Chapter
 
 MOST: Final = 6
@@ -296,7 +295,7 @@ def _different_keys(datasets: Sequence[xr.Dataset]) -> list[dict[str, Any]]:
 def _case(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the tables of a case; none where its text is not TOML."""
     try:
-        return toml.parse(str(dataset.attrs.get("case", "")))
+        return files.parse(str(dataset.attrs.get("case", "")))
     except ValueError:
         return {}
 

@@ -2,14 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
+from tribodyn.mechanisms.results import mechanism_of
+from tribodyn.results.atomic import write_bytes
+from tribodyn.views.playback import playback_times
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from tribodyn.core.arrays import FloatArray
+    from tribodyn.figures.figure_family import Animation
+
+
+from collections.abc import Mapping
 
 import xarray as xr
 
 from tribodyn.figures import sweep
 from tribodyn.figures.figure_family import Family, remove, save
-from tribodyn.mechanisms.results import all_there, mechanism_of
+from tribodyn.mechanisms.results import all_there
 
 
 def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:
@@ -47,3 +65,77 @@ def draw_all(dataset: xr.Dataset, directory: str | Path, *, part: slice = slice(
         else:
             remove(folder, family.name)
     return written
+
+
+_PER_SECOND: Final = 20
+"""Frames in a second of film."""
+_LONGEST: Final = 120.0
+_DPI: Final = 100
+_WRITERS: Final = {".gif": "pillow", ".mp4": "ffmpeg"}
+_SOLIDS: Final = ".glb"
+
+
+def animate(dataset: xr.Dataset, path: Path, seconds: float) -> Path:
+    """Write the last cycle of a result as a film, or as solids that move.
+
+    Parameters
+    ----------
+    dataset
+        A result of a mechanism that can be drawn in motion.
+    path
+        File to write; its extension says what: ``.gif``, ``.mp4`` or ``.glb``.
+    seconds
+        Length of the film [s].
+
+    Raises
+    ------
+    InputError
+        There is no motion to show, no such kind of file, or ``ffmpeg`` is missing for ``.mp4``.
+    """
+    animation = mechanism_of(dataset).animation
+    if animation is None:
+        kind = dataset.attrs.get("kind", "")
+        raise InputError(
+            f'a result of the kind "{kind}" has no animation; its report plays it', key="animate"
+        )
+    if not 1.0 <= seconds <= _LONGEST:
+        raise InputError(f"given {seconds:g}; allowed: 1 to {_LONGEST:g} seconds", key="seconds")
+    ending = path.suffix.lower()
+    if ending not in (*_WRITERS, _SOLIDS):
+        words = f"{as_given(path.name)}; allowed endings: {', '.join((*_WRITERS, _SOLIDS))}"
+        raise InputError(words, key="animate")
+    every = playback_times(dataset)
+    if every.size < 2:
+        raise InputError("this result holds no motion to show", key="animate")
+    times = np.linspace(every[0], every[-1], round(_PER_SECOND * seconds))
+    if ending == _SOLIDS:
+        content = _solids(dataset, animation, times, seconds)
+    else:
+        content = _film(dataset, animation, times, _WRITERS[ending], path.name)
+    write_bytes(path, content)
+    return path
+
+
+def _solids(dataset: xr.Dataset, animation: Animation, times: FloatArray, seconds: float) -> bytes:
+    """Return the content of a file of glTF."""
+    from tribodyn.views.gltf import gltf
+
+    solids, up = animation.solids(dataset, times)
+    return gltf(solids, np.linspace(0.0, seconds, times.size), up)
+
+
+def _film(dataset: xr.Dataset, animation: Animation, times: FloatArray, writer: str, name: str) -> bytes:
+    """Return the content of a film that matplotlib writes."""
+    from matplotlib.animation import writers
+
+    if not writers.is_available(writer):
+        words = "MP4 needs the program ffmpeg, which is not found; install it, or write a .gif or .glb file"
+        raise InputError(words, key="animate")
+    film, made = animation.film(dataset, times), writers[writer](fps=_PER_SECOND)
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        with made.saving(film.figure, str(path), dpi=_DPI):
+            for frame in range(times.size):
+                film.show(frame)
+                made.grab_frame()
+        return path.read_bytes()

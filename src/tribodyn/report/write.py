@@ -13,7 +13,7 @@ from tribodyn.report.figures import figures_of
 from tribodyn.report.page import render
 from tribodyn.report.sweep import render_sweep
 from tribodyn.results.atomic import write_text
-from tribodyn.results.attributes import SWEEP
+from tribodyn.results.dataset import SWEEP
 
 NAME: Final = "report.html"
 

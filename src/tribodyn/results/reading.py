@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.results.attributes import CARRIED
-from tribodyn.results.dataset import json_attribute
+from tribodyn.results.dataset import CARRIED, json_attribute
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from tribodyn.core import toml
+from tribodyn.core import files
 from tribodyn.core.quantities import TIME
 from tribodyn.core.quoting import brief
-from tribodyn.results.attributes import (
+from tribodyn.results.dataset import (
     ATTRIBUTES,
     FACTS,
     GAPS,
@@ -27,8 +27,15 @@ from tribodyn.results.attributes import (
     TEXTS,
     VARIABLE_ATTRIBUTES,
 )
-from tribodyn.results.outputs import in_output_unit
-from tribodyn.results.variables import COORDINATES, EVENTS, POINT_TEXTS, REVERSAL, VARIABLES, Variable
+from tribodyn.results.variables import (
+    COORDINATES,
+    EVENTS,
+    POINT_TEXTS,
+    REVERSAL,
+    VARIABLES,
+    Variable,
+    in_output_unit,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -147,7 +154,7 @@ def _tables(dataset: xr.Dataset, *names: str) -> Mapping[str, Any]:
     """Return the tables of the first text that a result has of these; nothing where it cannot be read."""
     text = next((dataset.attrs[name] for name in names if name in dataset.attrs), "")
     try:
-        return toml.parse(str(text))
+        return files.parse(str(text))
     except ValueError:
         return {}
 

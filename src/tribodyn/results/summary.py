@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
-from tribodyn.results.dataset import json_attribute
+from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, json_attribute
 from tribodyn.results.reading import column, reading_once, statistic
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC
 from tribodyn.contact.bounce import bounce
 from tribodyn.joints import SURFACE, BushingJoint, EntryMemory, Grid, contact_table
 from tribodyn.joints.drop import design_speed, drop
-from tribodyn.joints.resolution import resolving
+from tribodyn.joints.rows import resolving
 from tribodyn.mechanisms.bushing import Bearing
 
 _FINER: Final = 6

@@ -9,9 +9,9 @@ simulated cycles is a :class:`Campaign`, and nothing else: a campaign continues 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Final, Protocol
 
 import numpy as np
 
@@ -20,8 +20,48 @@ from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.wear_state import Carried
-from tribodyn.simulation.history import History, appended, empty_history, thinned
+from tribodyn.results.variables import CAMPAIGN
 from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
+
+History = dict[str, FloatArray]
+"""Columns over the stops of a campaign, by their names in the result, each of shape (n_jumps,)."""
+
+MOST_STAGES: Final = 32
+"""Worn profiles that are kept of a campaign, however long it is."""
+
+
+def columns(of_cycle: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of all columns, those that a mechanism writes down about each cycle among them."""
+    return (*CAMPAIGN, *of_cycle)
+
+
+def empty_history(of_cycle: Iterable[str]) -> History:
+    """Return a history of no stops."""
+    return {name: np.empty(0) for name in columns(of_cycle)}
+
+
+def appended(history: Mapping[str, FloatArray], entry: Mapping[str, float]) -> History:
+    """Return the history with one more stop; ``entry`` holds a number for each column."""
+    return {name: np.append(values, entry[name]) for name, values in history.items()}
+
+
+def thinned(cycles: FloatArray, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return worn profiles and their cycles, every second one left out when they are too many.
+
+    The latest is always kept. Later ones are added at every jump, so that a long campaign keeps early
+    profiles further apart than late ones, never more than :data:`MOST_STAGES`.
+
+    Parameters
+    ----------
+    cycles
+        Cycles at the profiles, shape (n,).
+    depth
+        Depth [m], shape (n, n_z + 2, n_theta).
+    """
+    if cycles.size <= MOST_STAGES:
+        return cycles, depth
+    kept = np.arange(cycles.size)[::-2][::-1]
+    return cycles[kept], depth[kept]
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,7 @@ from tribodyn.core.quoting import LONGEST, brief
 from tribodyn.core.versions import provenance
 from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.results.atomic import replacing
-from tribodyn.simulation.campaign import Campaign
-from tribodyn.simulation.history import columns
+from tribodyn.simulation.campaign import Campaign, columns
 
 FORMAT: Final = 2
 LARGEST: Final = 1_000_000_000

@@ -21,7 +21,7 @@ from tribodyn.mechanisms.mechanism_protocol import (
 )
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
-from tribodyn.results.attributes import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
+from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
 from tribodyn.simulation import session as hashes
 
 if TYPE_CHECKING:

@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
-from tribodyn.studies.job import LISTEN, Finished, SweepJob
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import PointOutcome, compute, failed
+from tribodyn.studies.work import LISTEN, Finished, PointOutcome, SweepJob, compute, failed
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Security

@@ -30,9 +30,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import read
-from tribodyn.results.outputs import ERROR_UNITS
 from tribodyn.results.reading import column, settled
 from tribodyn.results.store import POINTS
+from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of
 from tribodyn.studies.sweep import Means, Watcher, run

@@ -12,9 +12,16 @@ from tribodyn.core import fork_server, platforms
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.core.workers import DEATHS, DIED, UNREADY, Service, WorkerProcess
-from tribodyn.studies.job import LISTEN, Finished, SweepJob, stop_while_preparing
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import compute, failed, import_what_points_need
+from tribodyn.studies.work import (
+    LISTEN,
+    Finished,
+    SweepJob,
+    compute,
+    failed,
+    import_what_points_need,
+    stop_while_preparing,
+)
 
 LOST: Final = failed(DIED, final=False)
 """Outcome of a task whose worker died at every attempt."""

@@ -27,9 +27,8 @@ import xarray as xr
 
 from tribodyn.cases.units import UnitProblem, to_si
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.delimited import is_comment, named, separator_of, with_points
 from tribodyn.core.errors import InputError
-from tribodyn.core.files import read_regular, text_of
+from tribodyn.core.files import is_comment, named, read_regular, separator_of, text_of, with_points
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.columns import unit_of, variable

@@ -34,7 +34,7 @@ def statistics(dataset: xr.Dataset) -> list[tuple[dict[str, Any], Statistics]]:
     Parameters
     ----------
     dataset
-        From :func:`~tribodyn.studies.merge.merge`.
+        From :func:`~tribodyn.studies.archive.merge`.
 
     Returns
     -------

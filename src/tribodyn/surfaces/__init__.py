@@ -1,9 +1,8 @@
 """Measured surfaces: from a file to the roughness and asperities that contact laws need."""
 
 from tribodyn.surfaces.analysis import MeasuredSurface, Treatment, analyse, dependence
-from tribodyn.surfaces.asperities import Asperities, asperities
 from tribodyn.surfaces.generate import SelfAffine, generate
-from tribodyn.surfaces.moments import Moments, moments
+from tribodyn.surfaces.moments import Asperities, Moments, asperities, moments
 from tribodyn.surfaces.read import read_scan
 from tribodyn.surfaces.scan import Length, Scan
 from tribodyn.surfaces.text import Scale, write_text

@@ -26,12 +26,11 @@ from typing import BinaryIO, Final, TypeAlias
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.delimited import is_comment, named, separator_of
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import is_comment, named, separator_of
 from tribodyn.core.quoting import as_given, brief
-from tribodyn.surfaces.blocks import Block, Line, blocks, too_long
 from tribodyn.surfaces.scan import Length, Scan, from_columns
-from tribodyn.surfaces.table import Table
+from tribodyn.surfaces.table import Block, Line, Table, blocks, too_long
 
 Numbers: TypeAlias = Callable[[int | None], FloatArray]
 """Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -11,7 +11,153 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import packed, quantised
 from tribodyn.views.section import Payload
-from tribodyn.views.unrolled import height_marks, rolled, shortened, wall_angles
+
+CUTS: Final = (90.0, 270.0, 180.0, 0.0, 45.0, 135.0, 225.0, 315.0)
+"""Angles at which the bushing is cut open [deg], the preferred one first."""
+_BETWEEN: Final = tuple(float(cut) for cut in range(0, 360, 15) if cut not in CUTS)
+"""Further angles of the cut, for load at all of the others."""
+_BORDERS: Final = (30.0, 15.0, 5.0)
+"""Widths of free borders on both sides of a cut [deg], the best first."""
+
+WALL: Final = "angle from +X towards +Y [°]"
+"""Label of an axis with the angles of :func:`wall_angles`."""
+_MOST_STEPS: Final = 3
+"""Labelled stretches between the middle and an edge."""
+
+
+def wall_angles(dataset: xr.Dataset) -> FloatArray:
+    """Return the angles of the nodes of a bushing, from +X towards +Y [rad], shape (n_theta,).
+
+    Clearance circles and maps of all mechanisms count angles so. The variable ``theta`` of a bushing follows
+    the source paper: it is the direction in which the contact pushes the shaft, half a turn away.
+    """
+    return np.asarray((dataset["theta"].values + np.pi) % (2.0 * np.pi))
+
+
+def best_cut(theta: FloatArray, load: FloatArray) -> float:
+    """Return the angle [deg] of :data:`CUTS` with no load around it, or else any with the least at it.
+
+    Parameters
+    ----------
+    theta
+        Angles [rad], shape (n_theta,).
+    load
+        What should not be cut, at each angle, shape (n_theta,).
+    """
+    size = np.nan_to_num(np.abs(load))
+
+    def near(cut: float, border: float) -> float:
+        distance = np.abs((np.rad2deg(theta) - cut + 180.0) % 360.0 - 180.0)
+        return float(size[distance <= border].max(initial=0.0))
+
+    for border in _BORDERS:
+        for cut in CUTS:
+            # What is below a hundredth of the peak may be cut: the preferred cut then wins.
+            if near(cut, border) <= 0.01 * size.max(initial=0.0):
+                return cut
+    return min((*CUTS, *_BETWEEN), key=lambda cut: near(cut, _BORDERS[-1]))
+
+
+def shares(frames: FloatArray) -> FloatArray:
+    """Return the largest share that each angle ever has of the peak of its frame: what may be seen there.
+
+    Parameters
+    ----------
+    frames
+        Fields, shape (n, n_theta, n_z).
+
+    Returns
+    -------
+    array
+        Shape (n_theta,), from 0 to 1.
+    """
+    size = np.nan_to_num(np.abs(frames))
+    peaks = size.max(axis=(1, 2), keepdims=True, initial=0.0)
+    of_frame = np.divide(size, peaks, out=np.zeros_like(size), where=peaks > 0.0)
+    return np.asarray(of_frame.max(axis=(0, 2), initial=0.0))
+
+
+def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray, FloatArray]:
+    """Return angles [deg] growing from ``cut`` once around, and the field in that order.
+
+    Parameters
+    ----------
+    theta
+        Angles [rad], shape (n_theta,).
+    field
+        Values, shape (n_theta, ...).
+    cut
+        Where the bushing is cut open [deg].
+
+    Returns
+    -------
+    tuple of arrays
+        Shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes again at the end.
+    """
+    # Rounded, so that an angle that is the cut does not lie a whole turn behind it.
+    around = np.round(np.rad2deg(theta) - cut, 9) % 360.0
+    order = np.argsort(around)
+    angle = cut - 360.0 * (cut > 180.0) + around[order]
+    return np.append(angle, angle[0] + 360.0), np.concatenate([field[order], field[order[:1]]])
+
+
+def unloaded_middle(dataset: xr.Dataset, field: FloatArray) -> float:
+    """Return the height [mm] below which nothing happens: a long empty middle is shown shortened.
+
+    Parameters
+    ----------
+    dataset
+        A result with ``z`` [m].
+    field
+        What is to be shown, shape (n_theta, n_z).
+
+    Returns
+    -------
+    float
+        Nothing above a hundredth of the peak lies at smaller distances from the middle; 0 where the empty
+        part is less than half of the bushing.
+    """
+    distance = np.abs(dataset["z"].values) * 1e3
+    loaded = distance[field.max(axis=0) > 0.01 * field.max(initial=0.0)]
+    below = distance[distance < loaded.min()] if loaded.size else distance[:0]
+    height = np.floor(2.0 * below.max()) / 2.0 if below.size else 0.0
+    return float(height) if height >= 0.5 * distance.max() else 0.0
+
+
+def z_label(empty: float) -> str:
+    """Return the label of the axial axis."""
+    return "z [mm]" if not empty else "z [mm]\n(middle shortened)"
+
+
+def shortened(z: FloatArray, empty: float, half: float) -> FloatArray:
+    """Return the places of heights when the middle ``|z| < empty`` gets an eighth of the room.
+
+    Parameters
+    ----------
+    z
+        Heights, any shape.
+    empty, half
+        Where the middle ends and where the bushing ends, in the unit of ``z``; an ``empty`` of 0 leaves the
+        heights as they are.
+    """
+    bend = (half - empty) / 7.0 if empty else 0.0
+    near = z * (bend / empty) if empty else z
+    return np.where(np.abs(z) < empty, near, np.sign(z) * (bend + np.abs(z) - empty))
+
+
+def height_marks(half: float, empty: float) -> FloatArray:
+    """Return round heights to label outside the middle, and both edges, increasing, in the unit given."""
+    steps = _round_steps(empty, half)
+    marks = np.union1d(steps[(steps >= empty) & (steps < half)], [half])
+    return np.asarray(np.union1d(-marks, marks) + 0.0)  # makes a minus zero a plain one
+
+
+def _round_steps(low: float, high: float) -> FloatArray:
+    """Return multiples of 1, 2 or 5 times a power of ten, at most three stretches between the ends."""
+    exact = (high - low) / _MOST_STEPS
+    power = 10.0 ** np.floor(np.log10(exact))
+    step = power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= exact * (1.0 - 1e-9))
+    return np.asarray(step * np.arange(np.floor(low / step), np.ceil(high / step) + 1.0))
 
 
 @dataclass(frozen=True)
@@ -110,6 +256,6 @@ def unrolled(dataset: xr.Dataset, cut: float, empty: float) -> Unrolled:
     cut
         Where the bushing is cut open [°].
     empty
-        From :func:`tribodyn.figures.unrolled.unloaded_middle` [mm].
+        From :func:`tribodyn.figures.pressure.unloaded_middle` [mm].
     """
     return Unrolled(wall_angles(dataset), dataset["z"].values * 1e3, cut, empty)

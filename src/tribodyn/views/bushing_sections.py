@@ -7,13 +7,12 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import Cubics
-from tribodyn.views.bushing import unrolled
+from tribodyn.views.bushing import best_cut, shares, unloaded_middle, unrolled, wall_angles
 from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.encode import packed
+from tribodyn.views.events import peak, series, signed
 from tribodyn.views.playback import LINE_ERROR, dense_times, playback_times
 from tribodyn.views.section import Payload, Section
-from tribodyn.views.series import peak, series, signed
-from tribodyn.views.unrolled import best_cut, shares, unloaded_middle, wall_angles
 
 
 def _forces(dataset: xr.Dataset) -> list[Panel]:

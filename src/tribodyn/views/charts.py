@@ -17,11 +17,18 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.coordinates import coordinates
 from tribodyn.views.encode import stepped
-from tribodyn.views.events import impact_time, impact_windows, reversal_times, smooth_limits
+from tribodyn.views.events import (
+    finite,
+    impact_time,
+    impact_windows,
+    peak,
+    reversal_times,
+    series,
+    smooth_limits,
+)
 from tribodyn.views.numbers import fitting
 from tribodyn.views.playback import time_unit
 from tribodyn.views.section import Payload, Section
-from tribodyn.views.series import finite, peak, series
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.views.encode import stepped
-from tribodyn.views.series import series
+from tribodyn.views.events import series
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -14,7 +14,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
-from tribodyn.views.series import peak, series
+from tribodyn.views.events import peak, series
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,12 +8,12 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import packed
-from tribodyn.views.events import direction
-from tribodyn.views.series import series
+from tribodyn.views.events import direction, series
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
+
 
 _EVEN: Final = 241
 """Moments of results without pressure frames of their own."""
@@ -99,3 +99,21 @@ def dense_times(time: FloatArray, values: FloatArray, rates: FloatArray, toleran
     number = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     begin, length = np.repeat(time[:-1], pieces), np.repeat(step, pieces)
     return np.append(begin + length * number / np.repeat(pieces, pieces), time[-1])
+
+
+_SHOWN: Final = 0.35
+"""Clearance as a scene first shows it, over the radius of the shaft."""
+
+
+def magnification(ratio: float) -> dict[str, Any]:
+    """Return the range of the magnification and where it begins: round numbers.
+
+    Parameters
+    ----------
+    ratio
+        Radius of the shaft over its clearance.
+    """
+    first = _SHOWN * ratio
+    digit = 10.0 ** np.floor(np.log10(first))
+    value = float(max(np.floor(first / digit) * digit, 1.0))
+    return {"value": value, "most": 2.0 * value}

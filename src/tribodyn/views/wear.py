@@ -7,12 +7,11 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.bushing import unrolled
+from tribodyn.views.bushing import best_cut, unloaded_middle, unrolled, wall_angles
 from tribodyn.views.charts import ChartCurve, Panel, over
+from tribodyn.views.events import peak, series
 from tribodyn.views.numbers import LENGTHS, in_words
 from tribodyn.views.section import Payload, Section
-from tribodyn.views.series import peak, series
-from tribodyn.views.unrolled import best_cut, unloaded_middle, wall_angles
 
 UNITS: Final = dict(reversed(LENGTHS[:-1]))
 """Units of depth [m], the coarsest first."""

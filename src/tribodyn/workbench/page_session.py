@@ -18,7 +18,6 @@ from typing import Any, Final
 
 from tribodyn.core.errors import TribodynError
 from tribodyn.workbench import frame
-from tribodyn.workbench.cost import in_words, refuse_rows
 from tribodyn.workbench.edits import edited
 from tribodyn.workbench.messages import (
     Cancel,
@@ -34,7 +33,7 @@ from tribodyn.workbench.messages import (
     parsed,
 )
 from tribodyn.workbench.series import Series, SeriesPlan, slope_of, sweep_of
-from tribodyn.workbench.server_state import ServerState, refusal
+from tribodyn.workbench.server_state import ServerState, in_words, refusal, refuse_rows
 from tribodyn.workbench.variant import Origin, Variant, neighbours
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 

@@ -15,9 +15,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.results.summary import EFFORT
 from tribodyn.workbench import frame
 from tribodyn.workbench.controls import shown_number, text
-from tribodyn.workbench.cost import in_words, refuse_rows
 from tribodyn.workbench.messages import Slope, Sweep, Values
-from tribodyn.workbench.server_state import ServerState
+from tribodyn.workbench.server_state import ServerState, in_words, refuse_rows
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.worker_pool import Failed, GivenUp
 

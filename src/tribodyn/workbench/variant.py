@@ -14,9 +14,8 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key
 from tribodyn.cases.tables import keys_in, plain_path, with_components
 from tribodyn.core.errors import Faults, InputError
-from tribodyn.workbench.controls import FILE, shown_number, text, turnable
+from tribodyn.workbench.controls import FILE, shown_number, text, track, turnable
 from tribodyn.workbench.messages import Values
-from tribodyn.workbench.ranges import track
 
 _DIGITS: Final = 16
 SAVED: Final = "case.toml"

@@ -4,8 +4,7 @@ import sys
 import numpy as np
 import pytest
 
-from tribodyn.cli.console import Console
-from tribodyn.cli.progress import Bar, ProgressLines, progress
+from tribodyn.cli.console import Bar, Console, ProgressLines, progress
 
 
 def test_lines_come_at_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:

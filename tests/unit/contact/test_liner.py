@@ -5,7 +5,7 @@ import tribodyn as td
 from tribodyn.contact import Liner, SurfacePair, law, lined, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
 LINER = Liner(1e-3, 7.17e9, 0.34)

@@ -5,7 +5,7 @@ from scipy.integrate import solve_ivp
 from tribodyn.contact import DAMPING_FACTORS, RSDC, KogutEtsion, SurfacePair, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
 H_STAR = np.linspace(-4.0, 8.0, 61)

@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from tribodyn.core.delimited import named
+from tribodyn.core.files import named
 
 LONG = 100_000
 QUICK = 1.0

@@ -9,7 +9,7 @@ from tribodyn.figures import sweep
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import draw_all, figures_of
 from tribodyn.studies import Sampling, make_plan
-from tribodyn.studies.merge import merge
+from tribodyn.studies.archive import merge
 
 SWEEPS = {
     "line": ({"joint.clearance": "10:100:10 um"}, Sampling()),

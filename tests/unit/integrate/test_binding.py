@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
-from tribodyn.integrate.binding import Binding, all_finite
+from tribodyn.integrate.base import Binding, all_finite
 
 
 def nothing(*_):

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Statistics
 from tribodyn.integrate.base import Segment
-from tribodyn.integrate.cvode import CVODE
+from tribodyn.integrate.scipy_steps import CVODE
 
 
 def rhs(t, y):

@@ -10,7 +10,7 @@ from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.integrate.base import Step
 from tribodyn.integrate.driver import INTERRUPTED, IntegrationTask, Stepwise
-from tribodyn.integrate.schedule import make_schedule
+from tribodyn.integrate.following import make_schedule
 
 
 @dataclass

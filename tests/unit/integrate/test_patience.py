@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import IntegrationFailure
-from tribodyn.integrate import patience
-from tribodyn.integrate.patience import LOOK, Patience
-from tribodyn.integrate.schedule import make_schedule
+from tribodyn.integrate import driver
+from tribodyn.integrate.driver import LOOK, Patience
+from tribodyn.integrate.following import make_schedule
 
 DURATION = 1.0
 
@@ -25,7 +25,7 @@ class Clock:
 def looks(monkeypatch: pytest.MonkeyPatch, marks: list[tuple[float, int]]) -> None:
     """Look at a run of one second at marks of simulated time and evaluations, five seconds apart."""
     clock = Clock()
-    monkeypatch.setattr(patience, "time", clock)
+    monkeypatch.setattr(driver, "time", clock)
     watched = Patience(make_schedule((0.0, DURATION), (), np.linspace(0.0, DURATION, 501), ()))
     for t, evaluations in marks:
         clock.now += 1.25 * LOOK

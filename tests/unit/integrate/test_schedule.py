@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.integrate.schedule import make_schedule
+from tribodyn.integrate.following import make_schedule
 
 
 def test_marks_are_the_union_of_outputs_and_pictures():

@@ -7,7 +7,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.joints.resolution import FEWEST, MOST, resolving
+from tribodyn.joints.rows import FEWEST, MOST, resolving
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.mechanisms.bushing import bushing_of, grid_of
 

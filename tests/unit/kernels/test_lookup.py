@@ -8,7 +8,7 @@ import pytest
 from tribodyn.contact import RSDC, SurfacePair, tabulate
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
 

@@ -8,7 +8,7 @@ from tests.unit.mechanism.slider_crank import FILE, built, parsed
 
 from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
-from tribodyn.joints.resolution import resolving
+from tribodyn.joints.rows import resolving
 from tribodyn.joints.shapes import Cylinder
 from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.assembly.records import mechanism_data

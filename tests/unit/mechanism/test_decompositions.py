@@ -6,13 +6,13 @@ import pytest
 from tribodyn.mechanism.assembly.decompositions import (
     DEPENDENT,
     LARGE,
+    MultifrontalQR,
     factors,
     least_squares,
     null_space,
     row_space,
     with_unit_rows,
 )
-from tribodyn.mechanism.assembly.multifrontal import MultifrontalQR
 
 N_BODIES = 20
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tribodyn.mechanisms.output_instants import errors_at, passes
 from tribodyn.mechanisms.output_keys import Instant
+from tribodyn.mechanisms.output_numbers import errors_at, passes
 
 TIMES = np.linspace(0.0, 2.0, 2001)
 

@@ -6,7 +6,7 @@ import tribodyn as td
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.presets.journal.model import mechanism_of
+from tribodyn.presets.journal.case import mechanism_of
 
 OIL = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
 

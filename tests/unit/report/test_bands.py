@@ -8,7 +8,7 @@ from tribodyn.report import write
 from tribodyn.report.page import FOLDER, bands
 from tribodyn.results import netcdf_content
 from tribodyn.studies import Sampling, make_plan
-from tribodyn.studies.merge import merge
+from tribodyn.studies.archive import merge
 
 VARIED = {"joint.friction_coefficient": [0.05, 0.1], "contact.minimum_entry_velocity": "0.1 mm/s, 1 mm/s"}
 FORCES = (101.0, 104.0, 110.0, 117.0)

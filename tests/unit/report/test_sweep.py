@@ -7,7 +7,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.report import write
 from tribodyn.report.parallel import at_first, axes_of, payload, points_of
 from tribodyn.studies import Sampling, make_plan
-from tribodyn.studies.merge import merge
+from tribodyn.studies.archive import merge
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import pytest
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import VARIABLES, build, json_attribute
 from tribodyn.results.dataset import plain_attribute
-from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
+from tribodyn.results.variables import OUTPUTS, OUTPUTS_OF_CYCLE
 
 KNOWN = {**VARIABLES, **MECHANISMS["vsv"].variables}
 OF_A_CAMPAIGN = {name for name, variable in KNOWN.items() if {"jump", "stage_cycles"} & set(variable.dims)}

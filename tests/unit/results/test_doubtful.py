@@ -16,7 +16,7 @@ from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.report.page import render
 from tribodyn.results.summary import DOUBTFUL
 from tribodyn.studies import Sampling, make_plan
-from tribodyn.studies.merge import merge
+from tribodyn.studies.archive import merge
 from tribodyn.workbench.work import shown
 
 REASON = "the energy balance misses 6 %"

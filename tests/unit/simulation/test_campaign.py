@@ -9,8 +9,7 @@ import pytest
 from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
 from tribodyn.mechanisms.wear_state import Carried
-from tribodyn.simulation.campaign import CampaignPlan, Cycle, run_campaign
-from tribodyn.simulation.history import MOST_STAGES
+from tribodyn.simulation.campaign import MOST_STAGES, CampaignPlan, Cycle, run_campaign
 from tribodyn.wear import Archard, JumpControl
 
 ROUGHNESS = 1.6e-6

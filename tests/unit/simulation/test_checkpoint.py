@@ -9,8 +9,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Statistics
 from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.simulation import checkpoint
-from tribodyn.simulation.campaign import Campaign
-from tribodyn.simulation.history import columns
+from tribodyn.simulation.campaign import Campaign, columns
 
 CASE = 'case = "vsv"\n'
 SHAPE = (4, 6)

@@ -1,8 +1,8 @@
 """What a sweep is expected to take."""
 
 import tribodyn as td
-from tribodyn.studies.expected import warnings_of
 from tribodyn.studies.plan import make_plan
+from tribodyn.studies.sweep import warnings_of
 
 
 def test_a_sweep_warns_of_all_its_points_together() -> None:

@@ -15,8 +15,8 @@ from tribodyn.surfaces import (
     dependence,
     generate,
 )
+from tribodyn.surfaces.analysis import in_bands, spectra
 from tribodyn.surfaces.parameters import PARAMETERS, document, numbers
-from tribodyn.surfaces.spectrum import in_bands, spectra
 
 TREATMENT = Treatment(short_cutoff=6e-6, long_cutoff=60e-6)
 

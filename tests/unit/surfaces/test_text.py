@@ -96,7 +96,7 @@ TEXTS = {
 def test_blocks_leave_no_trace(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = read(tmp_path, TEXTS[name])
     for size in range(24, 60):
-        monkeypatch.setattr("tribodyn.surfaces.blocks.BLOCK", size)
+        monkeypatch.setattr("tribodyn.surfaces.table.BLOCK", size)
         again = read(tmp_path, TEXTS[name])
         np.testing.assert_array_equal(again.heights, whole.heights)
         assert again.spacing == whole.spacing
@@ -118,7 +118,7 @@ def test_blocks_leave_no_trace(name: str, tmp_path: Path, monkeypatch: pytest.Mo
 def test_errors_are_placed_whatever_the_block(
     rows: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tribodyn.surfaces.blocks.BLOCK", 64)
+    monkeypatch.setattr("tribodyn.surfaces.table.BLOCK", 64)
     path = tmp_path / "scan.csv"
     path.write_bytes(f"# unit: um\n# spacing: 1 um\n{rows}".encode(errors="surrogateescape"))
     with pytest.raises(InputError) as caught:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.views.unrolled import rolled, wall_angles
+from tribodyn.views.bushing import rolled, wall_angles
 
 
 def test_wall_angles_point_where_the_shaft_touches() -> None:

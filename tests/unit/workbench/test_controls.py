@@ -5,8 +5,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases.tables import keys_in, with_components
 from tribodyn.mechanisms.catalogue import MECHANISMS, built_in, load_case
-from tribodyn.workbench.controls import FIRST, controls
-from tribodyn.workbench.ranges import track
+from tribodyn.workbench.controls import FIRST, controls, track
 
 
 def found(name):

@@ -1,7 +1,7 @@
 """What a run will take, by what runs took."""
 
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.workbench.cost import Costs
+from tribodyn.workbench.server_state import Costs
 
 
 def test_one_run_that_the_machine_held_up_does_not_end_a_drag():

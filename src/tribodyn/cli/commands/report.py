@@ -56,7 +56,7 @@ def execute(args: Namespace) -> int:
 def _outcome(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the key results of a run, or of each point of a sweep with the values varied (SI)."""
     from tribodyn.mechanisms.results import summarise
-    from tribodyn.results.attributes import SWEEP
+    from tribodyn.results.dataset import SWEEP
 
     if dataset.attrs.get("kind") != SWEEP:
         return summarise(dataset)

@@ -10,13 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
-from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.console import CYCLES, Console, Progress, complain, progress, show_json, stage
 from tribodyn.cli.directory import REPORT, RESULT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
-from tribodyn.cli.log import stage
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
-from tribodyn.cli.progress import CYCLES, Progress, progress
 from tribodyn.cli.tables import in_words
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
@@ -71,7 +69,7 @@ def _is_verified(summary: dict[str, Any], wanted: str | None, console: Console) 
     """Compare the hash of the rows with the wanted one, if there is one; report what was found."""
     if wanted is None:
         return True
-    from tribodyn.results.attributes import ROWS_HASH
+    from tribodyn.results.dataset import ROWS_HASH
 
     found = summary.get(ROWS_HASH, "that of no rows: nothing was integrated")
     if wanted.strip().lower() == found:

@@ -13,13 +13,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed, without_quotes
-from tribodyn.cli.console import Console, complain, show_json
+from tribodyn.cli.console import POINTS, Console, Progress, complain, progress, show_json
 from tribodyn.cli.directory import POINTS as POINTS_FOLDER
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
 from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
-from tribodyn.cli.progress import POINTS, Progress, progress
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
@@ -237,7 +236,7 @@ class _Shown:
         here = f", {self._n_points - to_do} are there already" if to_do < self._n_points else ""
         self._console.note(f"computing {to_do} of {self._n_points} points{here}")
         if self._means.scheduler is None:
-            from tribodyn.studies.expected import warnings_of
+            from tribodyn.studies.sweep import warnings_of
 
             for warning in warnings_of(self._plan, to_do, self._means.workers):
                 complain(f"warning: {warning}")

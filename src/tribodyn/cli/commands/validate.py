@@ -47,8 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Run the sets and print every compared number."""
-    from tribodyn.validation.report import Judged, as_json, as_text, summary
-    from tribodyn.validation.save import save
+    from tribodyn.validation.report import Judged, as_json, as_text, save, summary
 
     console = Console.of(args)
     if args.template is not None:
@@ -92,7 +91,7 @@ def _sets(args: Namespace) -> list[ValidationSet]:
 
 
 def _template(folder: str, console: Console) -> int:
-    from tribodyn.validation.template import write_template
+    from tribodyn.validation.rig import write_template
 
     write_template(Path(folder))
     console.say(f"README.md and numbers.csv are in {folder}/")

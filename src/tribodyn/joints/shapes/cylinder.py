@@ -28,7 +28,7 @@ def rows_of_face(n_z: int, width: float, length: float) -> int:
 
     The shaft tilts no further than the barrel lets it. So the gap changes across a face and along the barrel
     as their widths do, and the numbers of rows that resolve it go with the roots of these, see
-    ``joints/resolution.py``.
+    ``joints/rows.py``.
 
     Parameters
     ----------

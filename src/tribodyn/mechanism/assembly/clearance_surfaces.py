@@ -21,8 +21,7 @@ from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
 from tribodyn.mechanism.frames import GROUND, cross, frame
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.model.pairs import PairKeys
-from tribodyn.mechanism.model.parts import CONFORMAL, NOTHING, ClearanceKeys, JointKeys
+from tribodyn.mechanism.model.parts import CONFORMAL, NOTHING, ClearanceKeys, JointKeys, PairKeys
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.bushing import Bearing
 

@@ -2,14 +2,213 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.kernels import dense
-from tribodyn.mechanism.assembly.multifrontal import MultifrontalQR
+
+_BODY: Final = 6
+"""Columns of a body."""
+_NOTHING: Final = 1.0e-13
+"""Length of what is left of a row or column that counts as nothing."""
+_EXACT: Final = 1.0e-9
+"""The same of all that was left out, and what rows miss by in motions that they leave."""
+
+
+@dataclass(frozen=True)
+class _Front:
+    """Factored rows that act on one body.
+
+    Attributes
+    ----------
+    rows
+        Their numbers, shape (m,); the first k of them hold rows of R.
+    normals
+        Of the reflections, shape (k, m).
+    columns, others
+        Columns of these rows of R: those of the triangle, shape (k,), and all others, shape (n,).
+    triangle, beside
+        Their entries, shapes (k, k) and (k, n).
+    """
+
+    rows: IntArray
+    normals: FloatArray
+    columns: IntArray
+    others: IntArray
+    triangle: FloatArray
+    beside: FloatArray
+
+    @property
+    def pivots(self) -> IntArray:
+        """Numbers of the rows of R, shape (k,)."""
+        return self.rows[: self.columns.size]
+
+
+class MultifrontalQR:
+    """Factorisation of rows over the motions of bodies.
+
+    Parameters
+    ----------
+    matrix
+        Rows of length one, shape (m, 6 n).
+
+    Attributes
+    ----------
+    rank
+        How many rows, and columns, are independent.
+    """
+
+    def __init__(self, matrix: FloatArray) -> None:
+        self.matrix = matrix
+        self._fronts, self._free, self._lost = list[_Front](), list[IntArray](), 0.0
+        for front, left, lost in _eliminated(matrix):
+            self._lost = math.hypot(self._lost, lost)
+            self._free.append(left)
+            if front.columns.size:
+                self._fronts.append(front)
+        pivots = np.concatenate([front.pivots for front in self._fronts] or [np.zeros(0, np.int64)])
+        self._dependent = np.setdiff1d(np.arange(len(matrix)), pivots)
+        self.rank = pivots.size
+
+    @cached_property
+    def bounds(self) -> tuple[float, float]:
+        """Lower bound of the least singular value but those of dependent rows, upper bound of the largest.
+
+        By the norms of Frobenius, and the largest sums over rows and columns, of which neither is smaller.
+        """
+        if self.rank == 0:
+            return 0.0, 0.0
+        unit = np.eye(len(self.matrix))[:, np.concatenate([front.pivots for front in self._fronts])]
+        with np.errstate(all="ignore"):
+            inverse = self._transposed(self._shortest(unit))
+            least = 1.0 / math.sqrt(dense.norm(inverse)) - self._lost
+        sizes = np.abs(self.matrix)
+        return least, math.sqrt(float(np.max(sizes.sum(axis=0)) * np.max(sizes.sum(axis=1))))
+
+    def is_certain(self, least: float) -> bool:
+        """Return whether singular values would show the same rank.
+
+        Those of independent rows then exceed ``least`` times the largest, those of others are none, and the
+        motions that are left were found accurately.
+        """
+        if self.rank == 0:
+            return True
+        (lower, upper), missed = self.bounds, dense.norm(dense.product(self.matrix, self.null))
+        return lower > least * upper and max(self._lost, missed) <= _EXACT
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        """Return the shortest x (6 n,) with the least |A x − right|, right of shape (m,)."""
+        turned = right[:, None].copy()
+        for front in self._fronts:
+            turned[front.rows] = _reflected(front.normals, turned[front.rows])
+        return self._shortest(turned)[:, 0]
+
+    @cached_property
+    def null(self) -> FloatArray:
+        """Orthonormal columns that A takes to zero, shape (6 n, 6 n − rank).
+
+        Their entries are zero, not only small, of bodies that do not move.
+        """
+        unit = np.eye(self.matrix.shape[1])[:, np.concatenate(self._free)]
+        rows = np.ascontiguousarray(self._back(np.zeros((len(self.matrix), unit.shape[1])), unit).T)
+        end = 0
+        for columns in filter(len, self._free):
+            begin, end = end, end + len(columns)
+            before, own = rows[:begin], rows[begin:end]
+            for _ in range(2):
+                shares = dense.product(before, own.T) if begin else np.zeros((0, len(own)))
+                own = own - dense.product(shares.T, before)
+                lower = dense.cholesky(dense.product(own, own.T))
+                # Turned round it is an upper triangle, which is solved without exchanges: zeros stay zero.
+                own = dense.solve(lower[::-1, ::-1], own[::-1])[::-1]
+            rows[begin:end] = own
+        return np.ascontiguousarray(rows.T)
+
+    @cached_property
+    def dependent(self) -> FloatArray:
+        """Orthonormal combinations of rows that vanish, shape (m − rank, m)."""
+        found = np.eye(len(self.matrix))[:, self._dependent]
+        for front in reversed(self._fronts):
+            found[front.rows] = _reflected(front.normals[::-1], found[front.rows])
+        return np.ascontiguousarray(found.T)
+
+    def softest(self, rounds: int = 3) -> float:
+        """Return an upper bound of the least singular value of independent rows, by inverse iteration."""
+        x = self._shortest(np.ones((len(self.matrix), 1)))
+        for _ in range(rounds):
+            x = self._shortest(self._transposed(x / dense.norm(x)))
+        return dense.norm(dense.product(self.matrix, x)) / dense.norm(x)
+
+    def _shortest(self, right: FloatArray) -> FloatArray:
+        """Return the shortest x (6 n, k) with R x = right (m, k)."""
+        x = self._back(right, np.zeros((self.matrix.shape[1], right.shape[1])))
+        return np.asarray(x - dense.product(self.null, dense.product(self.null.T, x)))
+
+    def _back(self, right: FloatArray, x: FloatArray) -> FloatArray:
+        """Fill x (6 n, k), of which columns left over are given, so that R x = right (m, k); return it."""
+        for front in reversed(self._fronts):
+            rest = right[front.pivots] - dense.product(front.beside, x[front.others])
+            x[front.columns] = dense.solve(front.triangle, rest)
+        return x
+
+    def _transposed(self, right: FloatArray) -> FloatArray:
+        """Return z (m, k) with Rᵀ z = right (6 n, k) in the columns that are not left over."""
+        found, rest = np.zeros((len(self.matrix), right.shape[1])), right.copy()
+        for front in self._fronts:
+            found[front.pivots] = z = dense.solve(front.triangle.T, rest[front.columns])
+            rest[front.others] -= dense.product(front.beside.T, z)
+        return found
+
+
+def _reflected(normals: FloatArray, columns: FloatArray) -> FloatArray:
+    dense.reflect(np.ascontiguousarray(normals), columns)
+    return columns
+
+
+def _eliminated(matrix: FloatArray) -> Iterator[tuple[_Front, IntArray, float]]:
+    """Give the fronts in their order, each with the columns left over and the size of what was dropped."""
+    work, size = np.array(matrix, np.float64), matrix.shape[1]
+    acts = np.logical_or.reduceat(work != 0.0, np.arange(0, size, _BODY), axis=1)
+    bodies_of = [set(np.flatnonzero(row).tolist()) for row in acts]
+    rows_of = [set(np.flatnonzero(column).tolist()) for column in acts.T]
+
+    def around(body: int) -> set[int]:
+        return set().union(*(bodies_of[row] for row in rows_of[body])) - {body}
+
+    neighbours, left = [around(body) for body in range(len(rows_of))], set(range(len(rows_of)))
+    while left:
+        body = min(left, key=lambda b: (len(neighbours[b]), len(rows_of[b]), b))
+        left.discard(body)
+        rows = np.array(sorted(rows_of[body]), np.int64)
+        own, others = _columns([body], size), _columns(sorted(neighbours[body]), size)
+        n = own.size
+        out, order, normals = dense.triangle(work[np.ix_(rows, np.append(own, others))], n, _NOTHING)
+        k, own = len(normals), own[order]
+        work[np.ix_(rows, others)] = out[:, n:]
+        lengths = np.sqrt(np.add.reduce(out[k:, n:] ** 2, axis=1))
+        lost = dense.norm(out[k:, k:n]), dense.norm(lengths[lengths <= _NOTHING])
+        goes_on = set(rows[k:][lengths > _NOTHING].tolist())
+        for other in neighbours[body]:
+            rows_of[other] = (rows_of[other] - set(rows.tolist())) | goes_on
+        for row in goes_on:
+            bodies_of[row] = neighbours[body]
+        for other in neighbours[body]:
+            neighbours[other] = around(other)
+        front = _Front(rows, normals, own[:k], np.append(own[k:], others), out[:k, :k], out[:k, k:])
+        yield front, own[k:], math.hypot(*lost)
+
+
+def _columns(bodies: list[int], size: int) -> IntArray:
+    """Return the numbers of the columns of some bodies, of ``size`` columns in all."""
+    found = (_BODY * np.array(bodies, np.int64)[:, None] + np.arange(_BODY)).ravel()
+    return found[found < size]
+
 
 LARGE: Final = 60
 """Number of rows or unknowns from which on factors replace singular values where they are accurate."""

@@ -16,7 +16,7 @@ from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.ordering import n_blocks
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanisms.action_intervals import WAVE_STEPS
+from tribodyn.mechanisms.shaft_loads import WAVE_STEPS
 from tribodyn.mechanisms.wear_state import Carried
 
 FUNCTIONS: Final = CompiledFunctions(**loop.FUNCTIONS)

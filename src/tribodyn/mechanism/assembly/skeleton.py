@@ -15,7 +15,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.results.attributes import MODEL
+from tribodyn.results.dataset import MODEL
 
 Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
 """Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3)."""

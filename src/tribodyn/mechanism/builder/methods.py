@@ -22,8 +22,7 @@ from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.model.output_declarations import OutputKeys
-from tribodyn.mechanism.model.pairs import PairKeys
-from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, SpringKeys
+from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys
 
 Example = Mapping[str, Any]
 """Tables of a case."""

@@ -15,7 +15,6 @@ NAMES: Final = (
     "screw",
     "distance",
     "nonlinear_spring",
-    "torsion_spring",
     "stop",
     "drag",
     "joint_friction",

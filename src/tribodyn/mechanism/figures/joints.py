@@ -13,8 +13,8 @@ from matplotlib.patches import Circle
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.figure_family import Family
+from tribodyn.figures.pressure import COLOURS
 from tribodyn.figures.style import BLUE, GREY, INK, caption, colour_bar, finish, note, sheet
-from tribodyn.figures.unrolled import COLOURS
 from tribodyn.mechanism.sections import joints as maps
 from tribodyn.mechanism.sections.joints import (
     MOST,
@@ -24,8 +24,8 @@ from tribodyn.mechanism.sections.joints import (
     real_joints,
     surfaces,
 )
-from tribodyn.views.series import peak
-from tribodyn.views.unrolled import best_cut, rolled
+from tribodyn.views.bushing import best_cut, rolled
+from tribodyn.views.events import peak
 
 _ACROSS: Final = 3
 """Panels beside each other; one less where their names are long."""

@@ -13,9 +13,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity
 from tribodyn.core.signals import Signal
 from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys
-from tribodyn.mechanisms.action_intervals import inside
 from tribodyn.mechanisms.peaks import impact_time, of_rows
 from tribodyn.mechanisms.self_checks import of_reversals
+from tribodyn.mechanisms.shaft_loads import inside
 
 PEAKS: Final = (
     Quantity("joint_force", "N", "force in the joint"),

@@ -8,7 +8,7 @@ from tribodyn.mechanism.results.readings import offset, sizes
 from tribodyn.mechanism.sections import mechanism
 from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
 from tribodyn.mechanism.sections.joints import FILM_PRESSURE, HODOGRAPHS, ORBITS, PRESSURE, REACTIONS, WEAR
-from tribodyn.views.overlay import Overlay, OverlayQuantity
+from tribodyn.views.common import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY
 

@@ -9,15 +9,14 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.mechanism.assembly.skeleton import case_of
-from tribodyn.mechanism.sections.shafts import Shafts
-from tribodyn.views.bushing import Unrolled
+from tribodyn.mechanism.sections.charts import Shafts
+from tribodyn.views.bushing import Unrolled, best_cut, shares
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over, over_time
 from tribodyn.views.encode import packed, stepped
+from tribodyn.views.events import peak
 from tribodyn.views.numbers import fitting
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
-from tribodyn.views.series import peak
-from tribodyn.views.unrolled import best_cut, shares
 from tribodyn.views.wear import fitting_unit
 
 MOST: Final = 8

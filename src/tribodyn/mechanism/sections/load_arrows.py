@@ -13,8 +13,7 @@ from tribodyn.mechanism.assembly.skeleton import Skeleton, rotated
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 from tribodyn.mechanism.results.followed import OBSERVED, coordinate, followed_by
-from tribodyn.mechanisms.action_intervals import Factors
-from tribodyn.mechanisms.shaft_loads import parts_of
+from tribodyn.mechanisms.shaft_loads import Factors, parts_of
 from tribodyn.views.playback import playback_times
 
 _OVER: Final = ("times", *OBSERVED)

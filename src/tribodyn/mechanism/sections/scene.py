@@ -13,13 +13,12 @@ from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.parts import JointKeys
+from tribodyn.mechanism.sections.charts import Shafts
 from tribodyn.mechanism.sections.joints import loaded_joints
 from tribodyn.mechanism.sections.load_arrows import load_arrows
-from tribodyn.mechanism.sections.shafts import Shafts
 from tribodyn.views.encode import packed
-from tribodyn.views.magnified import magnification
 from tribodyn.views.numbers import fitting, in_words
-from tribodyn.views.playback import playback_times
+from tribodyn.views.playback import magnification, playback_times
 
 _SUSTAINED: Final = 99.0
 """Percentile of the force over time for which an arrow has its full length."""

@@ -12,7 +12,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.style import DASHED, GREY, INK, SMALL, TEXT, Curves, caption, finish, lines, sheet
 from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth, mean_rate, over_clearances
-from tribodyn.views.series import series
+from tribodyn.views.events import series
 
 DEGREES: Final = float(np.rad2deg(1.0))
 PAPER_SPEED_ERRORS: Final = {20: 2.5e-4, 40: 7.5e-4}

@@ -7,7 +7,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.figures.figure_family import save_png
-from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, split, trunnion, undamped, wear
+from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, trunnion, undamped, wear
 from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
@@ -29,7 +29,7 @@ FIGURES: Final[dict[str, PaperFigure]] = {
         clearance.FORCES,
         clearance.ATTITUDE,
         wear.WEAR,
-        split.SPLIT,
+        drive.SPLIT,
         undamped.UNDAMPED,
     )
 }

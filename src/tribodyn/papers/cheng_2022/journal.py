@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.layout import keep
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
-from tribodyn.views.series import series
+from tribodyn.views.events import series
 
 _LOOKS: Final[dict[tuple[str, str], tuple[str, style.LineStyle]]] = {
     ("rsdc", "x"): (style.BLUE, style.SOLID),

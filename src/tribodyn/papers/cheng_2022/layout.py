@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.views.series import series
+from tribodyn.views.events import series
 
 STYLES: Final[tuple[tuple[str, style.LineStyle], ...]] = (
     (style.INK, style.SOLID),

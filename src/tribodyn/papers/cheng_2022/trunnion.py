@@ -11,7 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.layout import enlarge, keep, limits
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth
-from tribodyn.views.series import series
+from tribodyn.views.events import series
 
 CLEARANCE: Final = 20e-6
 CENTRES: Final[tuple[tuple[str, float, str, style.LineStyle], ...]] = (

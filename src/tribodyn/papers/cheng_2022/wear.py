@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures.pressure import draw_map
 from tribodyn.figures.style import SMALL, TEXT, Curves, caption, finish, lines, sheet
-from tribodyn.figures.unrolled import draw_map
 from tribodyn.papers.cheng_2022.layout import ANGLE, STYLES
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, on_grid, over_clearances
-from tribodyn.views.unrolled import best_cut, rolled, unloaded_middle, z_label
+from tribodyn.views.bushing import best_cut, rolled, unloaded_middle, z_label
 
 CYCLES: Final = (100, 200, 300, 400)
 DIVISOR: Final = 65.0

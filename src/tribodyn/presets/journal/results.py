@@ -13,7 +13,7 @@ from tribodyn.mechanism import mechanism_variables
 from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.results import mechanism_results
-from tribodyn.presets.journal.model import BEARING
+from tribodyn.presets.journal.case import BEARING
 from tribodyn.results.reading import column, norm, peak
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import Variable

@@ -19,11 +19,10 @@ from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.mechanisms.bushing import bushing_facts
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
 from tribodyn.mechanisms.wear_state import Worn
-from tribodyn.presets.journal.case import JournalCase
+from tribodyn.presets.journal.case import BEARING, JournalCase, mechanism_of
 from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, Loads, equilibrium, journal_in
-from tribodyn.presets.journal.model import BEARING, mechanism_of
 from tribodyn.presets.journal.results import loads_as_printed, named_as_printed
-from tribodyn.results.attributes import MODEL
+from tribodyn.results.dataset import MODEL
 
 _LOADS: Final = ("force_x", "force_y", "moment_x", "moment_y")
 _TURN: Final = slice(ORIENTATION, VELOCITY)

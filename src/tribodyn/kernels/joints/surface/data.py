@@ -6,7 +6,7 @@ from typing import Annotated, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import inlined
 
 POSITION: Final = 0

@@ -6,7 +6,7 @@ import math
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.core.tables import ContactTable
+from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.columns import APPROACH, AREA, FRACTION, INTERVAL, PART, PRESSURE, RIGID

@@ -13,7 +13,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.bounds import Bound
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, smooth
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, is_smooth, mean_rate, smooth
 
 
 class Sentence(NamedTuple):
@@ -196,3 +196,32 @@ def listed(values: FloatArray, unit: str) -> str:
 def least_growth(values: FloatArray) -> float:
     """Return the smallest growth from one number to the next [%]."""
     return float(100.0 * np.min(np.diff(values) / np.abs(values[:-1])))
+
+
+_GAP: Final = 0.1
+"""Longer times between samples are impacts left out [s]."""
+
+
+def weights(time: FloatArray) -> FloatArray:
+    """Return the time that each sample stands for [s]; none passes between stretches of smooth motion."""
+    step = np.diff(time)
+    step[step > _GAP] = 0.0
+    return np.asarray(0.5 * (np.append(step, 0.0) + np.insert(step, 0, 0.0)))
+
+
+def trend(time: FloatArray, error: FloatArray, run: xr.Dataset) -> float:
+    """Return the median size of the rate of an error, averaged over 0.2 s, in the smooth motion of a run."""
+    _, rate = mean_rate(time, error, run)
+    return float(np.median(np.abs(rate)))
+
+
+def of_instants(time: FloatArray, error: FloatArray, run: xr.Dataset) -> Finding:
+    """Return the sizes of the rate of an error at all instants of smooth motion, which have any value.
+
+    The paper gives one number and no instant. The least size is the 1 % quantile, since the rate passes zero.
+    """
+    rate = np.abs(np.gradient(error, time))[is_smooth(run, time)]
+    low, high = (float(value) for value in np.quantile(rate, (0.01, 1.0)))
+    middle = trend(time, error, run)
+    text = f"{low:.1g} to {high:.2g} °/s over the instants; median over 0.2 s {middle:.2g} °/s"
+    return Finding(text, middle, (low, high))

@@ -8,9 +8,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed
+from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed, weights
 from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, VARIED, above, below
-from tribodyn.papers.cheng_2022.claims.smooth import weights
 from tribodyn.papers.cheng_2022.impacts import damping_along_rigid, peaks, windows
 from tribodyn.papers.cheng_2022.runs import forward, is_smooth, smooth
 

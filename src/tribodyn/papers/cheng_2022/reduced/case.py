@@ -26,7 +26,7 @@ from tribodyn.papers.cheng_2022.reduced.actions import (
     VaneLoad,
     VanePassing,
 )
-from tribodyn.papers.cheng_2022.reduced.outputs import DEFAULT, VaneOutput
+from tribodyn.papers.cheng_2022.reduced.key_results import DEFAULT, VaneOutput
 
 if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths

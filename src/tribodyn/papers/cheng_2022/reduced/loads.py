@@ -20,8 +20,7 @@ from tribodyn.kernels.vsv.data import (
     VANE,
     VANE_SPEED,
 )
-from tribodyn.mechanisms.action_intervals import Term
-from tribodyn.mechanisms.shaft_loads import parts_of, shaft_terms
+from tribodyn.mechanisms.shaft_loads import Term, parts_of, shaft_terms
 
 if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022.reduced.actions import VaneLoad

@@ -14,8 +14,8 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
-from tribodyn.mechanisms.action_intervals import Term, crossings
 from tribodyn.mechanisms.peaks import impact_time
+from tribodyn.mechanisms.shaft_loads import Term, crossings
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly

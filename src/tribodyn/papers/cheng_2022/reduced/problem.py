@@ -25,7 +25,7 @@ from tribodyn.kernels.vsv import layout, loop
 from tribodyn.kernels.vsv.data import Books, Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, WATCHED
-from tribodyn.mechanisms.action_intervals import WAVE_STEPS, actions_of, shortest_wave
+from tribodyn.mechanisms.shaft_loads import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.signal_pieces import SignalList, pieces_of
 from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium

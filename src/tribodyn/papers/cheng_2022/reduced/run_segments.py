@@ -11,7 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.core.splines import Cubics
 from tribodyn.kernels.vsv.data import CRANK_ANGLE, TIME, VANE
-from tribodyn.mechanisms.action_intervals import Term, crossings, inside, kinks_over, segments_of
+from tribodyn.mechanisms.shaft_loads import Term, crossings, inside, kinks_over, segments_of
 from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import dead_centres, ideal_table
 

@@ -37,16 +37,22 @@ from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.self_checks import beyond_law, extremes, instant, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
-from tribodyn.papers.cheng_2022.reduced.checks import GAINS_ENERGY, notes, warnings
-from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE, balance_columns
+from tribodyn.papers.cheng_2022.reduced.checks import (
+    CLEARANCE,
+    GAINS_ENERGY,
+    WHOLE,
+    balance_columns,
+    notes,
+    warnings,
+)
+from tribodyn.papers.cheng_2022.reduced.key_results import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.loads import terms_of
-from tribodyn.papers.cheng_2022.reduced.outputs import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_at
 from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.papers.cheng_2022.reduced.times import following, output_times, snapshots
-from tribodyn.results.attributes import CARRIED
+from tribodyn.results.dataset import CARRIED
 from tribodyn.wear import loaded_depth
 
 _POSE: Final = ("theta_a", "e_x", "e_y", "phi_x", "phi_y")

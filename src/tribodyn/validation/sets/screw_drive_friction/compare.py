@@ -1,14 +1,75 @@
 """Largest difference of fitted friction laws from the measured torque of screw drives."""
 
 import math
+from collections.abc import Callable, Mapping
 from typing import Final
 
 import numpy as np
 
-from tribodyn.studies.least_squares import LeastSquares
+from tribodyn.core.arrays import FloatArray
+from tribodyn.friction import FrictionLimit
+from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
-from tribodyn.validation.sets.screw_drive_friction.laws import LAWS, fitted, measured
+
+Values = Mapping[str, float]
+Law = Callable[[Values, FloatArray], FloatArray]
+_PAYLOAD: Final = FitParameter("payload", -3.0, 3.0)
+_MOVING: Final = (FitParameter("coulomb", 0.0, 10.0), FitParameter("viscous", 0.0, 1.0))
+_STRIBECK: Final = (FitParameter("stribeck", -3.0, 3.0), FitParameter("stribeck_speed", 0.05, 50.0, True))
+
+
+def friction(given: Values, speed: FloatArray, suffix: str = "") -> FloatArray:
+    """Return friction [mN m] against the motion, shape of ``speed`` [rad/s]."""
+    law = FrictionLimit(
+        coulomb=given["coulomb" + suffix],
+        viscous=given["viscous" + suffix],
+        stribeck=given.get("stribeck" + suffix, 0.0),
+        stribeck_speed=given.get("stribeck_speed" + suffix, 1.0),
+        stribeck_exponent=1.0,
+    )
+    return np.asarray(np.sign(speed) * law(speed))
+
+
+def symmetric(given: Values, speed: FloatArray) -> FloatArray:
+    """Return the torque of a drive with one friction law and a payload."""
+    return np.asarray(given["payload"] + friction(given, speed))
+
+
+def by_direction(given: Values, speed: FloatArray) -> FloatArray:
+    """Return the torque of a drive with a friction law for each direction."""
+    return np.where(speed > 0.0, friction(given, speed, " forward"), friction(given, speed, " backward"))
+
+
+def _both(parameters: tuple[FitParameter, ...]) -> tuple[FitParameter, ...]:
+    return tuple(
+        FitParameter(f"{one.name} {way}", one.low, one.high, one.logarithmic)
+        for way in ("forward", "backward")
+        for one in parameters
+    )
+
+
+LAWS: Final[dict[str, tuple[Law, tuple[FitParameter, ...]]]] = {
+    "Coulomb + viscous": (symmetric, (_PAYLOAD, *_MOVING)),
+    "Stribeck": (symmetric, (_PAYLOAD, *_MOVING, *_STRIBECK)),
+    "Stribeck by direction": (by_direction, _both((*_MOVING, *_STRIBECK))),
+}
+"""Laws by name, with the parameters that are fitted; torques in mN m, speeds in rad/s."""
+
+
+def measured(one: ValidationSet, drive: str) -> tuple[FloatArray, FloatArray]:
+    """Return speeds [rad/s] and mean torques [mN m] of a drive, shapes (n,)."""
+    rows = [row for row in one.rows("steady_state.csv") if row["drive"] == drive]
+    speeds = np.radians([6.0 * float(row["input_speed_rpm_mean"]) for row in rows])
+    return speeds, np.array([float(row["input_torque_mN_m_mean"]) for row in rows])
+
+
+def fitted(one: ValidationSet, drive: str, name: str) -> LeastSquares:
+    """Return the fit of a law to a drive; its residuals are relative differences [1]."""
+    law, parameters = LAWS[name]
+    speed, torque = measured(one, drive)
+    return fit(lambda given: (law(given, speed) - torque) / np.abs(torque), parameters)
+
 
 JUDGED: Final = {
     ("1", "Coulomb + viscous"): "null_1",

@@ -1,9 +1,9 @@
 """What the report shows of the disc."""
 
 from tribodyn.views.charts import Chart, ChartCurve, Panel
-from tribodyn.views.overlay import Overlay, scaled
+from tribodyn.views.common import Overlay, scaled
+from tribodyn.views.events import series
 from tribodyn.views.section import OVER_TIME, Chapter
-from tribodyn.views.series import series
 
 HEIGHT = Chart(
     name="height",

@@ -4,7 +4,7 @@ from typing import Final
 
 from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear
 from tribodyn.figures.figure_family import Family
-from tribodyn.papers.cheng_2022.reduced.energy_balance import BALANCES
+from tribodyn.papers.cheng_2022.reduced.checks import BALANCES
 from tribodyn.papers.cheng_2022.reduced.figures import mechanism, vane_error
 from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
 from tribodyn.views.bushing_sections import TILT

@@ -12,7 +12,7 @@ from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip, ring_points
-from tribodyn.views.series import finite, series
+from tribodyn.views.events import finite, series
 
 TITLE: Final = "The mechanism at three vane positions"
 _LOOKS: Final[tuple[tuple[str, style.LineStyle], ...]] = (

@@ -12,8 +12,7 @@ from tribodyn.figures import style
 from tribodyn.figures.chart import mark_reversals
 from tribodyn.figures.figure_family import Family
 from tribodyn.papers.cheng_2022.reduced.sections.vane_error import DEG, ERROR, error
-from tribodyn.views.events import direction, reversal_times
-from tribodyn.views.series import peak, series
+from tribodyn.views.events import direction, peak, reversal_times, series
 
 
 def draw(dataset: xr.Dataset) -> Figure:

@@ -2,13 +2,13 @@
 
 from typing import Final
 
-from tribodyn.papers.cheng_2022.reduced.energy_balance import CLEARANCE, WHOLE
+from tribodyn.papers.cheng_2022.reduced.checks import CLEARANCE, WHOLE
 from tribodyn.papers.cheng_2022.reduced.sections import mechanism, vane_error
 from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
-from tribodyn.views import overlay
+from tribodyn.views import common
 from tribodyn.views.bushing_sections import CONTACT_FORCE, ORBIT, PRESSURE, TILT
+from tribodyn.views.common import Overlay, OverlayQuantity, scaled
 from tribodyn.views.energy_balance import balance_chart
-from tribodyn.views.overlay import Overlay, OverlayQuantity, scaled
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY, WEAR_MAP, WEAR_STAGES
 
@@ -64,7 +64,7 @@ OVERLAYS: Final = (
         "Vane-angle error",
         (OverlayQuantity("angle error [°]", ("theta_v", "theta_v_ideal"), vane_error.error),),
     ),
-    *overlay.BUSHING,
+    *common.BUSHING,
     Overlay("drive", "Drive moment", (scaled("M_d", "drive moment [N m]", 1.0),)),
 )
 """Overlays of a comparison of runs."""

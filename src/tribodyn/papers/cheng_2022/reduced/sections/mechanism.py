@@ -6,8 +6,7 @@ import xarray as xr
 
 from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip
 from tribodyn.views.encode import packed
-from tribodyn.views.magnified import magnification
-from tribodyn.views.playback import at_frames, playback_times
+from tribodyn.views.playback import at_frames, magnification, playback_times
 from tribodyn.views.section import Payload, Section
 
 

@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.cases.units import UnitProblem, to_si
 from tribodyn.papers.cheng_2022.reduced.sections.vane_error import DEG
 from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
-from tribodyn.views.series import series
+from tribodyn.views.events import series
 
 
 def panels(dataset: xr.Dataset) -> list[Panel]:

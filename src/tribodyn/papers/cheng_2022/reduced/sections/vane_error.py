@@ -7,9 +7,8 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.charts import Chart, ChartCurve, Panel, over
-from tribodyn.views.events import direction
+from tribodyn.views.events import direction, series
 from tribodyn.views.section import Payload, Section
-from tribodyn.views.series import series
 
 DEG: Final = 180.0 / np.pi
 
