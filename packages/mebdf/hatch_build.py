@@ -1,7 +1,5 @@
 """Machine code of the kernels, made when a wheel is built."""
 
-from __future__ import annotations
-
 import os
 import platform
 import runpy

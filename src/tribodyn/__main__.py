@@ -1,7 +1,5 @@
 """``python -m tribodyn`` is the command ``tribodyn``."""
 
-from __future__ import annotations
-
 import gc
 import sys
 from typing import Final

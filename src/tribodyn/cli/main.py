@@ -1,7 +1,5 @@
 """Entry of the command ``tribodyn``."""
 
-from __future__ import annotations
-
 import argparse
 import importlib
 import os

@@ -1,7 +1,5 @@
 """Base class of contact laws."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import KW_ONLY, dataclass
 from typing import ClassVar, Final

@@ -10,8 +10,6 @@ Valid for spherical, independent asperities of one radius under moderate load, h
 an asperity jumps by up to 8 % from one regime to the next; the pressure, an integral over heights, does not.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple

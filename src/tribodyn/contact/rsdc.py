@@ -5,8 +5,6 @@ closing from far apart: what goes into plastic deformation is lost, which gives 
 damping factor. The elastic-plastic regimes count in both works, as printed.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """The two rough surfaces in contact and the numbers that follow from them."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 

@@ -1,7 +1,5 @@
 """Tabulation of a contact law for the kernels."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Laws from outside of this package: a class, or a function of the separation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias

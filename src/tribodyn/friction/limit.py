@@ -13,8 +13,6 @@ apart). The complete law is model M6 of M. Duclusaud, G. Passault, V. Padois, O.
 Models for the Physics Simulation of Servo Actuators", IEEE ICRA 2025.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

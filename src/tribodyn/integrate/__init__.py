@@ -1,7 +1,5 @@
 """Integrators: every one of them runs a :class:`~tribodyn.core.problem.Problem` by the same rules."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 

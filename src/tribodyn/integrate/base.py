@@ -20,8 +20,6 @@ The rules of a method
    only what it alone knows, the rejected steps and the LU decompositions.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from math import isfinite

@@ -4,8 +4,6 @@ This file and :mod:`tribodyn.core.problem` say in which order the functions of a
 are called; a compiled driver keeps the same order.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import dataclass

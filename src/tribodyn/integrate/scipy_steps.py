@@ -8,8 +8,6 @@ for solving stiff and nonstiff systems of ordinary differential equations, SIAM 
 136-148.
 """
 
-from __future__ import annotations
-
 import importlib
 import warnings
 from collections.abc import Callable, Iterator

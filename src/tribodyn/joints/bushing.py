@@ -1,7 +1,5 @@
 """A trunnion in a bushing with clearance, Eqs. 44, 45 and 48."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Deviation of the surfaces of a bushing joint from cylinders: crown, chamfers, measured forms."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -10,8 +10,6 @@ modulus E, radii r_j and r_b = r_j + c and the penetration δ = ρ − c:
 Both are multiplied by 1 + a δ̇/δ̇₋ with the damping factor a of the case.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from functools import lru_cache

@@ -7,8 +7,6 @@ in one direction and every coordinate stays between two kinks, so that trial sta
 polynomial of this side.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, Final, NamedTuple
 

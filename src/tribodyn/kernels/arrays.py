@@ -1,7 +1,5 @@
 """Records, and clearing of arrays: loops compile ten times as fast as slice assignments."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -3,8 +3,6 @@
 Small matrices only. Arguments and results are those of the functions of these names in NumPy.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, Final
 

@@ -4,8 +4,6 @@ Python's ``max`` and ``min`` choose one of two; to the compiler, a running maxim
 sum that it may split. The processor's own maximum is. NaN stays NaN.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from mebdf.compiled.kernel import UNCOMPILED, Instruction

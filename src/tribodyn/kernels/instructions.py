@@ -1,7 +1,5 @@
 """Code generators of ``extremes`` and of the call of a force law, imported where something is compiled."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from mebdf.compiled.jit import intrinsic, ir, types

@@ -1,7 +1,5 @@
 """Decorators of kernels. Those of the solver are compiled into some of them: an edit there renews all."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Code generators of ``lanes``, imported where something is compiled."""
 
-from __future__ import annotations
-
 import operator
 from typing import Any, Final
 

@@ -7,8 +7,6 @@ must not reorder a sum. A sum over nodes is therefore written as four sums, one 
 In uncompiled code lanes are arrays of four numbers.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

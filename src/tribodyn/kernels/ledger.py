@@ -17,8 +17,6 @@ A mechanism fills the entries ``NOW`` of powers, forces and motion at an instant
 or :func:`add_part`.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray

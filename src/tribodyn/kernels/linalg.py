@@ -1,7 +1,5 @@
 """Dense linear solve for the small systems of a mechanism."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatMatrix
 from tribodyn.kernels.jit import entry
 

@@ -5,8 +5,6 @@ node. A separation that is not a number gives results that are not numbers. Ther
 nodes are to take four at once.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -9,8 +9,6 @@ A stretch begins with the run and with each reversal. What lies in its first par
 kept apart from the rest.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers that follow time or a coordinate."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Final, NamedTuple
 

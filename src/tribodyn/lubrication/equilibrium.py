@@ -1,7 +1,5 @@
 """Equilibrium of a shaft that a film carries alone: from load and speed to its place, without contact."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Final

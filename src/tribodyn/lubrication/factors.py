@@ -21,8 +21,6 @@ reference data. φ_c = ∂h_T/∂h is the change of the mean gap h_T for a chang
 and ∂h/∂t.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

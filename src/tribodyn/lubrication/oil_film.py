@@ -1,7 +1,5 @@
 """An oil film between shaft and bushing, made into what the kernels read."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

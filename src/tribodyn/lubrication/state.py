@@ -1,7 +1,5 @@
 """A film at one state, evaluated from Python, and why a film has no answer."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final
 

@@ -4,8 +4,6 @@ Mechanisms of this package are folders; packages above it, and other installed p
 entry points.
 """
 
-from __future__ import annotations
-
 import importlib
 import os
 import warnings

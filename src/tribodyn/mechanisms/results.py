@@ -1,7 +1,5 @@
 """Results of any mechanism: read and checked, and their key results."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager

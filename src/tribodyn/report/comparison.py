@@ -1,7 +1,5 @@
 """Several runs on one page: what differs on top, then their curves over each other."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

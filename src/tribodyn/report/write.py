@@ -1,7 +1,5 @@
 """The report of a result beside it, whatever kind of result it is."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final

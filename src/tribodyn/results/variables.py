@@ -6,8 +6,6 @@ Signs are those of the theory manual: moments about X and Z are right-handed, ab
 joint; forces ``F_ab`` act on body ``b`` from body ``a``.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The bounce test of a case: which restitution every law and damping factor really gives on its surfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final

@@ -6,8 +6,6 @@ is repeated over the cycles of the jump that follows, the simulated one among th
 simulated cycles is a :class:`Campaign`, and nothing else: a campaign continues from it to the same bits.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace

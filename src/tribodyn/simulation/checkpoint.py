@@ -4,8 +4,6 @@ One NumPy archive, without pickled objects, written beside its place and then re
 killed finds the last complete one.
 """
 
-from __future__ import annotations
-
 import json
 import zipfile
 from collections.abc import Iterable, Mapping

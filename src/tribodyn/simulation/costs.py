@@ -10,8 +10,6 @@ times but those of films, pictures and integrators in Python: see the page of co
 ``tests/unit/simulation/test_costs.py`` measures others: within a factor of 2 for memory, 3 for time.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Final, Self
 

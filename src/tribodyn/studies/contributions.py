@@ -14,8 +14,6 @@ Beside it stands the estimate by superposition, which takes one kinematic analys
 every shaft against one side of its bore.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

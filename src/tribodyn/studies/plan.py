@@ -1,7 +1,5 @@
 """The plan of a sweep: every point with its validated case, before anything runs."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import math

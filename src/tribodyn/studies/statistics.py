@@ -1,7 +1,5 @@
 """Statistics of samples for the population from which they were drawn."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import warnings

@@ -1,7 +1,5 @@
 """From a scan to roughness parameters, and how they depend on the wavelengths that are let in."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

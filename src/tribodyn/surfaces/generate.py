@@ -5,8 +5,6 @@ falls as q^(-2-2H) for a map, or q^(-1-2H) for a profile, down to ``shortest``, 
 moments are integrals of powers, known in closed form.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -13,8 +13,6 @@ Semicolons and tabs may stand for commas, which then are decimal commas. A missi
 ``nan``. Lines of words above the header, and those that begin with ``#``, ``%`` or ``//``, are passed over.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterator

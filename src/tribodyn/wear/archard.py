@@ -5,8 +5,6 @@ the time integral of P_c |u|. The paper prints C_w/H_d, which is no specific wea
 already; its figures result when the rate is divided by the bare number 65.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

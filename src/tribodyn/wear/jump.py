@@ -10,8 +10,6 @@ worn shape does not change the load. So N is limited twice:
   other in turn: the extrapolation is an explicit Euler step, and stiff.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Final

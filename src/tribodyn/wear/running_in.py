@@ -11,8 +11,6 @@ the old σ, the heights are min(z, a):
 New asperities come up as old ones go: the roughness falls no further than to a final one.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

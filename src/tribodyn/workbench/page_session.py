@@ -5,8 +5,6 @@ stopped at every movement nothing would be shown before the drag ends. A request
 the run of another request. The newest result waits until the page has drawn the one before.
 """
 
-from __future__ import annotations
-
 import asyncio
 import json
 import traceback

@@ -1,7 +1,5 @@
 """State that all pages of a server share: the case, the workers, the runs that are kept, and their cost."""
 
-from __future__ import annotations
-
 import asyncio
 import math
 from collections import Counter, OrderedDict

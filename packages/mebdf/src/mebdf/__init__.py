@@ -1,7 +1,5 @@
 """A solver for stiff and differential-algebraic equations: ``solve_ivp(..., method=mebdf.MEBDF)``."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:

@@ -1,7 +1,5 @@
 """Newton matrices of the solver class that are too large for the compiled core: LAPACK and SuperLU."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final, Protocol
 

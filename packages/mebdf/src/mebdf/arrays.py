@@ -1,7 +1,5 @@
 """Type aliases of arrays."""
 
-from __future__ import annotations
-
 from typing import Annotated, TypeAlias
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Refusals and warnings of a solver class of SciPy, in SciPy's own words."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from warnings import warn
 

@@ -6,8 +6,6 @@ differentiated must hold for the values given. The last derivatives give the alg
 iteration. Its matrix is P J (M⁺ J)^k Z after k derivatives, where M⁺ gives y' and Z the algebraic directions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 

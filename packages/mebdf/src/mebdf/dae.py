@@ -1,7 +1,5 @@
 """Implicit equations F(t, y, y') = 0 by a function of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

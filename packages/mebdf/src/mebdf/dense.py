@@ -1,7 +1,5 @@
 """The solution between the ends of a step of the solver class for SciPy."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Jacobians by differences, dense and of known pattern, also where large terms cancel."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final, NamedTuple, Protocol
 

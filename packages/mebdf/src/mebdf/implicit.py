@@ -5,8 +5,6 @@ matrix ∂F/∂y' + hβ ∂F/∂y: that of M y' = f with M = ∂F/∂y' and J = 
 and −F for the rest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 

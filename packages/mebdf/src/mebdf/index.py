@@ -7,8 +7,6 @@ Source: K. E. Brenan, S. L. Campbell, L. R. Petzold, Numerical Solution of Initi
 Differential-Algebraic Equations, SIAM 1996, 2.3 (matrix pencils).
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """The Jacobian of the solver class for SciPy: given, constant or from differences, and who solves with it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any, Final, NamedTuple

@@ -1,7 +1,5 @@
 """The mass matrix of the solver class for SciPy: checked, and as the compiled core keeps it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Why the MEBDF gave up, in words."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

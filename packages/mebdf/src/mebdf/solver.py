@@ -1,7 +1,5 @@
 """The MEBDF as a solver class of SciPy: ``solve_ivp(fun, t_span, y0, method=mebdf.MEBDF)``."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 from warnings import warn

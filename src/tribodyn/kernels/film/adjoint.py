@@ -6,8 +6,6 @@ over faces.
 Where a node is about to cavitate the derivative has a kink, of the size of that node's share.
 """
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

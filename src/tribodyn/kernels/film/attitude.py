@@ -9,8 +9,6 @@ cross-section of a tilted shaft is an ellipse. With s = t_y cos θ + t_x sin θ,
 Except for the last term the gap is linear in the chart. The derivatives in t are those at the height z + r s.
 """
 
-from __future__ import annotations
-
 from mebdf.kernels.elementary import hypot, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel

@@ -7,8 +7,6 @@ M-matrix, for which this converges from any first set and, after the first solve
 evaluation.
 """
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve_one
 from tribodyn.kernels.film.data import (

@@ -1,7 +1,5 @@
 """Data and memory of the kernels of the film."""
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Factors of rough surfaces and the mean gap, from their tables."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.film.data import FlowTable
 from tribodyn.kernels.jit import inlined, kernel

@@ -9,8 +9,6 @@ surface 1. φ_c ∂h/∂θ is written as ∂h_T/∂θ, which it is, so that what
 are taken where they are needed, at nodes and at faces, not averaged.
 """
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

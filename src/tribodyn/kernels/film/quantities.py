@@ -1,7 +1,5 @@
 """Observed quantities of the oil film of a joint."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table

@@ -1,7 +1,5 @@
 """Report of the last evaluation of a film besides its wrench."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatMatrix
 from tribodyn.kernels.film.data import HALF_SOMMERFELD, FilmData, FilmMemory
 from tribodyn.kernels.jit import entry, kernel

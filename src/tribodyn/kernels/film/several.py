@@ -4,8 +4,6 @@ All films of a mechanism have one grid, so that one of them is a view of these a
 film by itself: nothing is compiled for several films.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from tribodyn.kernels.film.data import BandSystem, FilmData, FilmFields, FilmMemory, FlowTable

@@ -4,8 +4,6 @@ See ``kernels.film`` for the arguments. A film without tilt, whose wear is the s
 solved on half its length.
 """
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray, FloatMatrix

@@ -5,8 +5,6 @@ around the axis alone, with rates of the tilts for angular velocities, and momen
 axis. A node lies at −r_j (cos θ, sin θ), so that θ is the direction of the pressure on the trunnion.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 import numpy as np

@@ -8,8 +8,6 @@ with the axial force N, which the mechanism knows, and the direction s of the ro
 rounded within φ_0. The collar cannot pull: a mechanism lets it go where N would be negative.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

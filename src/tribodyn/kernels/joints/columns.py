@@ -1,7 +1,5 @@
 """Columns that the lists of nodes of all joints have."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray

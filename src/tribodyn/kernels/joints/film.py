@@ -6,8 +6,6 @@ which are the coordinates of ``kernels.film.attitude`` but for the sign about Y.
 velocity about the axis of the bore.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Memory of a bushing: where contact began, how it slid, its extremes; and its work arrays."""
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 from mebdf.kernels.elementary import hypot

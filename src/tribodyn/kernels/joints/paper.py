@@ -4,8 +4,6 @@ The paper's states are (e_x, e_y, φ_x, φ_y) and their rates, its wrench is (F_
 M_y are left-handed, all else is right-handed.
 """
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from tribodyn.core.arrays import FloatArray, FloatMatrix

@@ -4,8 +4,6 @@ Wrenches are (F_x, F_y, F_z, M_x, M_y, M_z) on the shaft, moments about its orig
 taken with respect to displacement, tilt, velocity and rates of turning, three of each.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table

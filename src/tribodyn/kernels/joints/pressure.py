@@ -3,8 +3,6 @@
 Without branches, as the look-up: loops over nodes are to take four at once.
 """
 
-from __future__ import annotations
-
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import inlined
 from tribodyn.kernels.lookup import pressure_and_damping

@@ -1,7 +1,5 @@
 """Contact pressures of the nodes in a list."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.columns import (

@@ -3,8 +3,6 @@
 Signs are those of the source paper: φ_x and M_x right-handed, φ_y and M_y left-handed.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table

@@ -4,8 +4,6 @@ The compiled counterpart of ``tribodyn.integrate.driver``, with the same order o
 compiled problems and those in plain Python.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from dataclasses import replace

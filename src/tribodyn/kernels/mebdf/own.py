@@ -1,7 +1,5 @@
 """The Jacobian of a problem that solves with the iteration matrix itself: entries in the problem's order."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -7,8 +7,6 @@ With the x axis q of the shaft in the axes of the socket, of length one, and s =
 Where the shaft does not tilt, g is the axis. Few couplings need the angle itself at every evaluation.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

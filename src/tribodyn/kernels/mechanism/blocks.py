@@ -8,8 +8,6 @@ inside the blocks on the diagonal, where these are not positive definite, and no
 ``mechanism/assembly/ordering.py`` says why none is needed.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray, IntArray

@@ -1,7 +1,5 @@
 """Bodies at one instant: from states to attitudes, and back; their own forces and rates."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any
 

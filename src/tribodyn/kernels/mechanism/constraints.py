@@ -24,8 +24,6 @@ of which only the rate matters: with e = d/|d|, or v/|v|,
 Of an element with a force law F the equation is λ = F(Φ, Φ̇) instead.
 """
 
-from __future__ import annotations
-
 import math
 
 from mebdf.kernels.elementary import cos, sin

@@ -12,8 +12,6 @@ whose only row is one term of the sum. The first leg counts the equation, and al
 One file because these records hold each other.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 from mebdf.compiled.layouts import STACKED

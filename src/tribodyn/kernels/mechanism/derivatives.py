@@ -6,8 +6,6 @@ wrench, that of the axes it is given in, and that of its arms. Its rows change b
 δa.
 """
 
-from __future__ import annotations
-
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear, is_zero
 from tribodyn.kernels.jit import kernel

@@ -3,8 +3,6 @@
 See ``kernels/mechanism/solution.py`` for what is solved.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Final
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """The oil film of a joint of a mechanism."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tribodyn.core.quantities import Record

@@ -1,7 +1,5 @@
 """A mechanism of ideal joints that follows its drives: positions and velocities without forces."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix

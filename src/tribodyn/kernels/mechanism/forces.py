@@ -5,8 +5,6 @@ velocity. What a load or a torque that follows a coordinate changes with it is l
 stiff.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The compiled functions of any mechanism, as the protocol in ``core/problem.py`` asks for them."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

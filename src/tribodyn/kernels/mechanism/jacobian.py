@@ -1,7 +1,5 @@
 """The Jacobian of the equations of motion as a full matrix, column by column."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel

@@ -5,8 +5,6 @@ arguments and takes its results. The equation of the element is then λ = F(q, q
 its legs make. A law is compiled by itself, so a new one leaves all other compiled code as it is.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass

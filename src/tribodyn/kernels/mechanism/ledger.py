@@ -4,8 +4,6 @@ Integrands are known at marks, the ends of the parts of accepted steps; between 
 the parabola through both and one before, where that one is not too near.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from tribodyn.kernels.jit import kernel

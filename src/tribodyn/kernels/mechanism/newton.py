@@ -20,8 +20,6 @@ rows before columns and socket before shaft; and where it has rows, Γ_q, Γ_v a
 and six compliances. ``factorise`` puts γ and the entries before the blocks, so that ``solve`` finds them.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray, IntArray

@@ -1,7 +1,5 @@
 """Rows of observed quantities."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

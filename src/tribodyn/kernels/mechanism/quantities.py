@@ -1,7 +1,5 @@
 """Observed quantities of a mechanism: of the whole, then of each body, then of each coupling."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table

@@ -1,7 +1,5 @@
 """Constraint rows that follow from the others, where there are more than can be independent."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -13,8 +13,6 @@ A small turn of a body about its own axes changes A by A [δθ]×, so that δ(B�
 follow.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from tribodyn.core.quantities import Record

@@ -23,8 +23,6 @@ they no longer change.
 One file because all of these steps share the factors of one linear system.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Final
 

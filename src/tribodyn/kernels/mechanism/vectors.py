@@ -1,7 +1,5 @@
 """Products of small matrices, and with the matrices [y]× of cross products."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
 

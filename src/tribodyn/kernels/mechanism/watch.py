@@ -1,7 +1,5 @@
 """Joints whose model no longer holds: looked for at the end of every accepted step."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from mebdf.kernels.elementary import hypot

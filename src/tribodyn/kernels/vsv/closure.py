@@ -1,7 +1,5 @@
 """Loop closure of the mechanism with the trunnion where it is, Eqs. 11-18."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Final
 

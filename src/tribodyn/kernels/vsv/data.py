@@ -1,7 +1,5 @@
 """Data and memory of the kernels of the variable stator vane mechanism."""
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Motion of the crank: the sinusoid of the paper's section 5.1, or a signal."""
 
-from __future__ import annotations
-
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import held
 from tribodyn.kernels.jit import kernel

@@ -7,8 +7,6 @@ following in translation, rotation of the vane about the pin, and the two tilts 
 of the lever force. In ``printed`` they are the coefficients that Appendix 2 prints.
 """
 
-from __future__ import annotations
-
 from mebdf.kernels.elementary import cos, sin, tanh
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record

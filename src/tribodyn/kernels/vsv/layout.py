@@ -6,8 +6,6 @@ remains when the clearance accelerations vanish, and the value. With a mass and 
 row, the equations of motion are sums over rows.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 THETA_A: Final = 0

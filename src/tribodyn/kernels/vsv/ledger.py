@@ -5,8 +5,6 @@ motion alone, q̇ᵀ(N q̈ − Q), with N = Σ m_r δr δrᵀ: forces on the fou
 N q̇.
 """
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import TIME, add_following

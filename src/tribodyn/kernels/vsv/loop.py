@@ -1,7 +1,5 @@
 """The functions of the mechanism as a problem, and the loop over its steps."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from tribodyn.kernels.mebdf.drive import loop

@@ -5,8 +5,6 @@ implicit differentiation. ``paper``: the rods follow the ideal closure and the c
 shifts O2 by (e_x/2, e_y/2) and O3 by (e_x/2, e_y), Appendix 2.
 """
 
-from __future__ import annotations
-
 from typing import Final, TypeAlias
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One row of observed quantities, see ``kernels/vsv/quantities.py``."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear

@@ -1,7 +1,5 @@
 """Place of the trunnion in its bushing, whose clearance may follow the temperatures of a run."""
 
-from __future__ import annotations
-
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.actions import NONE, held
 from tribodyn.kernels.jit import entry

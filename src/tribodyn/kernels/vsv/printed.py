@@ -5,8 +5,6 @@ Eq. 46 are in the order of ``paper``: 1, 4, 2, 3, all with the opposite sign. Mo
 rows of the motion table like those of the other formulations; :func:`add_printed_entries` adds the rest.
 """
 
-from __future__ import annotations
-
 import math
 
 from mebdf.kernels.elementary import atan2, cos, sin

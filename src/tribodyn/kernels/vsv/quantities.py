@@ -1,7 +1,5 @@
 """Observed quantities of the variable stator vane mechanism, in their order."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together

@@ -4,8 +4,6 @@ The accelerations are known. What is left of each equation is one unknown, but f
 drag link in the plane of the ring: two equations.
 """
 
-from __future__ import annotations
-
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.vsv.data import AIR_X, AIR_Y

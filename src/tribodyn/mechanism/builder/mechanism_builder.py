@@ -1,7 +1,5 @@
 """A mechanism put together in Python; what comes of it is the case that a file would have made."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Mapping
 from html import escape

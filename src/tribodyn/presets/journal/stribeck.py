@@ -4,8 +4,6 @@ At low speed asperities carry the load and friction is theirs; at high speed the
 with speed as its shear does. In between, in mixed lubrication, friction is least.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Final, cast
 

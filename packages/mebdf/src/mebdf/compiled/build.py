@@ -1,7 +1,5 @@
 """Machine code of kernels from LLVM's intermediate code: linked, freed of Python, optimised once."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from functools import cache

@@ -12,8 +12,6 @@ Numba optimises each function together with all that it calls, again at every le
 machine code of it. Here functions stay intermediate code until :mod:`mebdf.compiled.build` links them.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable, Iterator
 from functools import cache

@@ -6,8 +6,6 @@ corrections. Where J is right at one point only, as on the steep flank of a swit
 tolerance, the same holds beside it. Only an evaluation after the correction decides.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Copying of arrays: loops compile ten times as fast as slice assignments."""
 
-from __future__ import annotations
-
 from mebdf.arrays import FloatArray
 from mebdf.kernels.jit import entry
 

@@ -4,8 +4,6 @@ Written by ``scripts/derive_mebdf.py`` in exact arithmetic, where the derivation
 ``k`` belongs to the method with ``k`` back values, of order k + 1; row 0 is unused.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

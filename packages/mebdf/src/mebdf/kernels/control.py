@@ -1,7 +1,5 @@
 """Choice of order and step: error tests, growth, and the way back from failures."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

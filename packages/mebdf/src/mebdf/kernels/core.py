@@ -24,8 +24,6 @@ Cash (1983), Comput. Math. Appl. 9, 645; Cash & Considine (1992), ACM TOMS 18, 1
 Solving Ordinary Differential Equations II, V.3.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Final
 
 import numpy as np

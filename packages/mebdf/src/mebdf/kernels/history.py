@@ -1,7 +1,5 @@
 """Backward differences: change of step, the newest value, and the polynomial through them."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from mebdf.arrays import FloatArray, FloatMatrix

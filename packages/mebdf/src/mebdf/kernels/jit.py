@@ -1,7 +1,5 @@
 """Decorators of the kernels of the solver."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Final
 

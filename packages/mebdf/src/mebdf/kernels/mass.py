@@ -4,8 +4,6 @@ An equation without derivatives, a row of zeros, stands in the iteration with ne
 its row of the matrix keeps its size as the step shrinks.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

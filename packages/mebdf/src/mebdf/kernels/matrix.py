@@ -1,7 +1,5 @@
 """The iteration matrix I − hβJ: explicit inverse where few equations make that faster, LU otherwise."""
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -3,8 +3,6 @@
 One file because the phases of one iteration read and leave the same state, in the order in which they stand.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

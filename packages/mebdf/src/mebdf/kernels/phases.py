@@ -1,7 +1,5 @@
 """Phases of the machine between two calls, and its requests to the caller."""
 
-from __future__ import annotations
-
 from typing import Final
 
 NEED_F: Final = 1

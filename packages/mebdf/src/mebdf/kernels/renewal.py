@@ -11,8 +11,6 @@ where several components jump at once. With a mass matrix M the determinant of M
 has for short steps, as long as M and the algebraic equations stay regular. The trace is not used there.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

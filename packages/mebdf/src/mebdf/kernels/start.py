@@ -1,7 +1,5 @@
 """The first step: f at the start, and at a trial point if the step must be estimated."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

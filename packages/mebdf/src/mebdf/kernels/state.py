@@ -1,7 +1,5 @@
 """State of an MEBDF integration: a record and arrays, for compiled code and Python alike."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Final, NamedTuple
 
 import numpy as np
@@ -238,9 +236,9 @@ class Numbers:
 
 def _type_of(fields: type) -> np.dtype[np.void]:
     """Return the type of a record with the annotated fields of a class."""
-    kinds: dict[str, Any] = {"float": (np.float64,), "int": (np.int64,), "tuple[float, ...]": (np.float64, 3)}
+    kinds: dict[Any, Any] = {float: (np.float64,), int: (np.int64,), tuple[float, ...]: (np.float64, 3)}
     if fields is not Settings:
-        kinds["Settings"] = (_type_of(Settings),)
+        kinds[Settings] = (_type_of(Settings),)
     named = [(name, *kinds[kind]) for name, kind in fields.__annotations__.items()]
     return np.dtype((np.record, np.dtype(named, align=True)))
 

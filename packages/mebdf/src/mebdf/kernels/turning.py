@@ -10,8 +10,6 @@ removes it.
 Residuals of algebraic equations have no scale to be compared by: where there are any nothing is looked for.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

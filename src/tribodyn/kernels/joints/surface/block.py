@@ -4,8 +4,6 @@ All numbers of a ring are made in lanes, one lane for each of four rings that fo
 an array that the loops over nodes read. Behind them it has place for all groups of nodes of these rings.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray

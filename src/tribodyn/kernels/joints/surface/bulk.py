@@ -19,8 +19,6 @@ polynomial of q, for ∂W/∂C = −P²/2 is known, and pressures are its exact 
 while C changes is a power of its own, see ``ring_report``.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, Final
 

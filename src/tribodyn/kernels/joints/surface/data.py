@@ -1,7 +1,5 @@
 """Constant data of the kernels of surfaces."""
 
-from __future__ import annotations
-
 from typing import Annotated, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray

@@ -1,7 +1,5 @@
 """Entry velocities of patches, changed at accepted steps only; and their pressure field."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray

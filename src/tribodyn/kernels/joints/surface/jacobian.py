@@ -15,8 +15,6 @@ and depends on the tilt by ρ c cᵀ. This adds
 and ∂friction/∂(v, ω) has N − e in the place of N.
 """
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

@@ -4,8 +4,6 @@
 a kernel changes the scratch, and what it says.
 """
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from tribodyn.core.arrays import FloatArray

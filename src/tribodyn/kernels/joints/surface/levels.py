@@ -1,7 +1,5 @@
 """Pressures of rings on elastic bodies: between two levels of compliance, see ``bulk``."""
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from tribodyn.core.quantities import Record

@@ -1,7 +1,5 @@
 """The list of nodes of a surface."""
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import record_type

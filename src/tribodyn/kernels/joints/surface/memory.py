@@ -1,7 +1,5 @@
 """History variables of clearance joints: begin of contact, sliding, peaks; and their work arrays."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Final, NamedTuple
 

@@ -4,8 +4,6 @@ Sums over nodes are loops over this list, filled and summed a part at a time: lo
 take four nodes at once, however few are in reach in a row.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -8,8 +8,6 @@ instead of a pressure times an area, over (c − ρ)/σ; there is no pressure fi
 literature, the cross-sections are circles: the ellipse of a tilted shaft is neglected.
 """
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

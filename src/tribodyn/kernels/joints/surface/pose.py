@@ -5,8 +5,6 @@ taken with respect to displacement, a small rotation of the shaft, velocity and 
 each. On the socket the same forces act backwards: −F, and −(M + d × F) about the socket's origin O.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import record_type

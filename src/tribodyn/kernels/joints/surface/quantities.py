@@ -3,8 +3,6 @@
 On the shaft, in the socket's frame, moments about the shaft's origin.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table

@@ -1,7 +1,5 @@
 """Everything about a surface at one instant that a person or a ledger asks for."""
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

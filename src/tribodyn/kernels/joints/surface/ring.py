@@ -17,8 +17,6 @@ number of nodes is not a multiple of four, the last group repeats some, which th
 reach.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Entry velocities of a surface of revolution, changed at accepted steps only; and its pressure field."""
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

@@ -15,8 +15,6 @@ With the second-order term of the tilt m is arm + β (φ_y c − φ_x s), β = �
 Derivatives are added up in lanes, one for each of four rings, until the last ring.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final, NamedTuple
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Report of a surface of revolution at one instant, and how it slides."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

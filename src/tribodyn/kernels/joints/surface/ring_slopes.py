@@ -5,8 +5,6 @@ see ``tilt``, needs the same five of w cos² θ. Sums of a ring in four lanes be
 each lane.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray

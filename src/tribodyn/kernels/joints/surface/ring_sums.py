@@ -1,7 +1,5 @@
 """Sums over the nodes of rings, carried to the origin ring by ring, in lanes until the last ring."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 from tribodyn.core.arrays import FloatArray

@@ -4,8 +4,6 @@ A weight w has Σ w (1, c, s, c², c s), c = cos θ and s = sin θ, and with a s
 Σ w (c³, c² s, c⁴, c³ s). The sums of w c, w s, and w (x c + y s) are made from these with s² = 1 − c².
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from tribodyn.core.arrays import FloatArray

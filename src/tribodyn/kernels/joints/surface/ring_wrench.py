@@ -1,7 +1,5 @@
 """Wrench of a surface of revolution: sums over the nodes of a ring, carried to the origin once a ring."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tribodyn.core.arrays import FloatArray

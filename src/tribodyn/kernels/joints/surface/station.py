@@ -12,8 +12,6 @@ transposes: the pressure is then normal to the axis, F·a = 0, as it must be whe
 any gap changing.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray

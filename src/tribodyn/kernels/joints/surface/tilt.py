@@ -20,8 +20,6 @@ The pressure acts along the normal of the pin in the first case, along that of t
 give the lever arm z + ρ n·l. The derivation is in ``docs/theory/mechanisms.md``.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Nodes of a ring that can be in contact: four rings at a time."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Wrench of a surface on the shaft: sums over the nodes within reach."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

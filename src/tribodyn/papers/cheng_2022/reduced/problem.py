@@ -1,7 +1,5 @@
 """The VSV mechanism as an initial value problem."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

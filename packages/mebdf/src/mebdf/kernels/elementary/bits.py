@@ -1,7 +1,5 @@
 """The 64 bits of a number as an integer, and back."""
 
-from __future__ import annotations
-
 import struct
 from typing import Any, Final
 

@@ -1,7 +1,5 @@
 """Constants and tables of the elementary functions, computed by whole numbers to more bits than they keep."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Final
 

@@ -4,8 +4,6 @@ Sums: Knuth, The Art of Computer Programming 2, section 4.2.2; products: Dekker 
 No fused multiply-add is used, which not every processor has.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Final
 

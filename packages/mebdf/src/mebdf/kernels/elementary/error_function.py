@@ -4,8 +4,6 @@ Below 1 it is 1 − erf(x), erf(x) = 2/√π e^(−x²) Σ 2ⁿ x^(2n+1)/(2n+1)!
 it is the trapezoidal rule with its correction: Chiarella and Reichel (1968), Math. Comput. 22, 137.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

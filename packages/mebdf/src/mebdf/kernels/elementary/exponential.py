@@ -4,8 +4,6 @@ With n the whole number nearest to 64 x/ln 2, e^x = 2^(n/64) e^r, |r| ≤ ln 2/1
 twice the digits: Tang (1989), ACM Trans. Math. Softw. 15, 144.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Length of a vector of two components: Borges (2021), ACM Trans. Math. Softw. 47, 9, by exact products."""
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -1,7 +1,5 @@
 """Code generators of ``bits``, imported where something is compiled."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from mebdf.compiled.jit import intrinsic, ir, types

@@ -5,8 +5,6 @@ table holds the first to twice the digits, the second is a short series: Gal and
 Math. Softw. 17, 26.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

@@ -4,8 +4,6 @@ With c near 1/m from a table, ln(2^k m) = k ln 2 âˆ’ ln c + ln(1 + r), r = c m â
 (1990), ACM Trans. Math. Softw. 16, 378. The sum is formed to twice the digits, which powers need.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

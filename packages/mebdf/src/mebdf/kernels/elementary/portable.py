@@ -3,8 +3,6 @@
 NumPy chooses its functions by the processor. One kernel holds all: loading one of them loads the others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Final
 

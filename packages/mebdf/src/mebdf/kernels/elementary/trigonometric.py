@@ -5,8 +5,6 @@ Elementary Functions, 1980), large ones by the digits of 2/π that matter (Payne
 Newsletter 18(1), 19). What is left, |r| ≤ π/4 in two parts, goes into Taylor's series.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 
