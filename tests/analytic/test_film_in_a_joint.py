@@ -20,7 +20,7 @@ from tribodyn.kernels.film.wrench import film_wrench
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import Scratch
 from tribodyn.kernels.mechanism.data import REPORTS, SLOPES, CouplingNow
-from tribodyn.kernels.mechanism.film import film_force
+from tribodyn.kernels.mechanism.forces import film_force
 from tribodyn.lubrication import Film, FilmGrid, Roughness, stacked_data, stacked_memory
 from tribodyn.mechanisms import results
 from tribodyn.presets.journal.system import journal_of

@@ -11,7 +11,7 @@ from tests.faults.random_mechanisms import flat_loop
 
 import tribodyn as td
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.kernels.signals import Signals, evaluate
+from tribodyn.kernels.actions import Signals, evaluate
 from tribodyn.mechanisms.results import summarise
 from tribodyn.mechanisms.signal_pieces import Pieces, SignalList, backward
 from tribodyn.results.reading import column

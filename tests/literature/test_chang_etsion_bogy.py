@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 
 from tribodyn.contact import SurfacePair
-from tribodyn.contact.chang_etsion_bogy import ChangEtsionBogy
+from tribodyn.contact.kogut_etsion import ChangEtsionBogy
 
 H_STAR = np.array([-2.0, -0.5, 0.0, 1.0, 2.0, 3.5, 5.0])
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tribodyn.contact import SurfacePair
+from tribodyn.contact.contact_law import asperity_integral
 from tribodyn.contact.greenwood_tripp import GreenwoodTripp
-from tribodyn.contact.quadrature import asperity_integral
 
 # F_5/2 as printed by Greenwood and Tripp (1970), to five decimals, at h* = 0 (0.5) 3.5.
 PRINTED = [0.61664, 0.24040, 0.08056, 0.02286, 0.00542, 0.00106, 0.00017, 0.00002]

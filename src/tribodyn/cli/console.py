@@ -1,4 +1,4 @@
-"""Output of commands: results on stdout, everything about the work on stderr."""
+"""Output of commands: results on stdout; remarks, progress and a log of the work on stderr."""
 
 from __future__ import annotations
 

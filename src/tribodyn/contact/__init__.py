@@ -22,9 +22,9 @@ from tribodyn.core.errors import InputError
 _MEMBERS = (
     "kogut_etsion:KogutEtsion",
     "rsdc:RSDC",
-    "greenwood_williamson:GreenwoodWilliamson",
+    "greenwood_tripp:GreenwoodWilliamson",
     "greenwood_tripp:GreenwoodTripp",
-    "chang_etsion_bogy:ChangEtsionBogy",
+    "kogut_etsion:ChangEtsionBogy",
     "jackson_green:JacksonGreen",
     "linear:LinearContact",
 )

@@ -15,8 +15,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.contact.quadrature import asperity_integral, density, exceedance
+from tribodyn.contact.contact_law import ContactLaw, asperity_integral, density, exceedance
 from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError

@@ -1,4 +1,4 @@
-"""Elastic contact of two rough surfaces after Greenwood and Tripp, with exact integrals.
+"""Elastic contact of rough surfaces after Greenwood and Williamson, and after Greenwood and Tripp.
 
 Both surfaces carry ξ asperities of radius β per area; two that meet beside their summits, at the distance r,
 touch with the interference of their heights less r²/4β. Summed over all offsets and Gaussian heights, with
@@ -13,8 +13,8 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.contact.quadrature import asperity_integral
+from tribodyn.contact.asperities import AsperityLaw, Regime
+from tribodyn.contact.contact_law import ContactLaw, asperity_integral
 from tribodyn.core.arrays import FloatArray
 
 
@@ -43,3 +43,26 @@ class GreenwoodTripp(ContactLaw):
         """Return the number of contacts per area [1/m²], shape of ``h_star`` [1]."""
         meetings = 4.0 * math.pi * self.pair.asperity_density * self.pair.asperity_parameter
         return meetings * asperity_integral(h_star, 1.0, 0.0, math.inf)
+
+
+@dataclass(frozen=True)
+class GreenwoodWilliamson(AsperityLaw):
+    """The limit that every elastic-plastic law here has for hard, smooth surfaces."""
+
+    name: ClassVar[str] = "gw"
+    title: ClassVar[str] = "Greenwood-Williamson: elastic asperities against a plane"
+    source: ClassVar[str] = "Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300-319"
+    validity: ClassVar[str] = "plasticity index below 0.6; real area below a few percent"
+
+    @property
+    def regimes(self) -> tuple[Regime, ...]:
+        """The load of Hertz at every interference."""
+        pair = self.summits
+        stress = 4.0 / 3.0 * pair.composite_modulus * pair.asperity_parameter
+        stress *= math.sqrt(pair.roughness_rms / pair.asperity_radius)
+        return (Regime(stress, 1.5, 0.0, math.inf),)
+
+    @property
+    def area_regimes(self) -> tuple[Regime, ...]:
+        """The area of Hertz at every interference."""
+        return (Regime(math.pi * self.summits.asperity_parameter, 1.0, 0.0, math.inf),)

@@ -20,7 +20,7 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.contact.asperities import AsperityLaw, Regime
-from tribodyn.contact.quadrature import height_integral
+from tribodyn.contact.contact_law import height_integral
 from tribodyn.core.arrays import FloatArray
 
 ELASTIC: Final = 1.9

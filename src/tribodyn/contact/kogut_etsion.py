@@ -1,4 +1,4 @@
-"""Elastic-plastic contact of rough surfaces after Kogut and Etsion, Eqs. 2-4 of the source paper.
+"""Elastic-plastic contact after Chang, Etsion and Bogy (CEB) and Kogut and Etsion, Eqs. 2-4 of the paper.
 
 Each asperity of interference s·σ carries a load that is a power of s, different in four regimes: elastic
 up to the critical interference δ_c, elastic-plastic up to 6 δ_c and up to 110 δ_c, fully plastic beyond.
@@ -60,3 +60,34 @@ class KogutEtsion(AsperityLaw):
             Regime(0.94 * flat * portable.power(d, -0.146), 1.146, 6.0 * d, 110.0 * d),
             Regime(2.0 * flat, 1.0, 110.0 * d, math.inf),
         )
+
+
+@dataclass(frozen=True)
+class ChangEtsionBogy(AsperityLaw):
+    """Elastic asperities, and plastic ones that keep their volume."""
+
+    name: ClassVar[str] = "ceb"
+    title: ClassVar[str] = "Chang-Etsion-Bogy: elastic asperities, plastic ones keep their volume"
+    source: ClassVar[str] = "Chang, Etsion and Bogy, J. Tribol. 109 (1987) 257-263; K of 1988"
+    validity: ClassVar[str] = "no elastic-plastic stage; real area below a few percent"
+
+    @property
+    def regimes(self) -> tuple[Regime, ...]:
+        """The load of Hertz, then KH times the area."""
+        pair, d = self.summits, self.summits.critical_interference_star
+        elastic = 4.0 / 3.0 * pair.composite_modulus * pair.asperity_parameter
+        elastic *= math.sqrt(pair.roughness_rms / pair.asperity_radius)
+        mean = pair.hardness_coefficient * pair.hardness
+        plastic = (regime._replace(stress=mean * regime.stress) for regime in self._plastic_area(d))
+        return (Regime(elastic, 1.5, 0.0, d), *plastic)
+
+    @property
+    def area_regimes(self) -> tuple[Regime, ...]:
+        """The area of Hertz, then that of conserved volume."""
+        d = self.summits.critical_interference_star
+        return (Regime(math.pi * self.summits.asperity_parameter, 1.0, 0.0, d), *self._plastic_area(d))
+
+    def _plastic_area(self, d: float) -> tuple[Regime, Regime]:
+        """Return πβδ(2 − δ_c/δ) as two powers of the interference."""
+        flat = math.pi * self.summits.asperity_parameter
+        return Regime(2.0 * flat, 1.0, d, math.inf), Regime(-flat * d, 0.0, d, math.inf)

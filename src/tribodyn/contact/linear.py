@@ -12,9 +12,8 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from tribodyn.contact.contact_law import ContactLaw
+from tribodyn.contact.contact_law import ContactLaw, asperity_integral, exceedance
 from tribodyn.contact.parameter import parameter
-from tribodyn.contact.quadrature import asperity_integral, exceedance
 from tribodyn.core.arrays import FloatArray
 
 CORNER: Final = 0.1

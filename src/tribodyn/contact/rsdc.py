@@ -11,8 +11,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from tribodyn.contact.contact_law import asperity_integral, exceedance
 from tribodyn.contact.kogut_etsion import KogutEtsion
-from tribodyn.contact.quadrature import asperity_integral, exceedance
 from tribodyn.core.arrays import FloatArray
 
 

@@ -1,4 +1,4 @@
-"""Reading files that somebody named: regular files only, none larger than what reads it expects.
+"""Reading files that somebody named: regular files of limited size, TOML from strangers, tables of numbers.
 
 A pipe keeps its reader waiting, a device never ends, and either may stand behind a link. So a file is opened
 without waiting, and what was opened is looked at before anything is read from it.

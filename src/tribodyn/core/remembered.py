@@ -1,4 +1,4 @@
-"""Newest values, by the inputs on which they depend."""
+"""Newest values by the inputs on which they depend, and tables that objects fill once for kernels."""
 
 import threading
 from collections.abc import Callable, Hashable

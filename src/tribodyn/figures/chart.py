@@ -14,9 +14,9 @@ from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import GREY, SMALL
 from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
-from tribodyn.views.coordinates import angle_of
 from tribodyn.views.events import impact_time, reversal_times, series
 from tribodyn.views.playback import time_unit
+from tribodyn.views.section import angle_of
 
 COLOURS: Final = {
     "ink": style.INK,

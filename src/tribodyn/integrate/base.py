@@ -1,4 +1,4 @@
-"""The protocol between the driver and a method that advances one step at a time.
+"""The protocol of a method that advances one step at a time, and a problem as its plain functions.
 
 A method sees a plain initial value problem without memory, breakpoints or output times:
 everything in :mod:`tribodyn.core.problem` that is more than that is the driver's. To add

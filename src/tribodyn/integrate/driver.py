@@ -1,4 +1,4 @@
-"""The walk of a step-by-step method over a problem: the rules of the protocol in Python.
+"""The walk of a step-by-step method over a problem, and the end of a walk that makes no progress.
 
 This file and :mod:`tribodyn.core.problem` say in which order the functions of a problem
 are called; a compiled driver keeps the same order.

@@ -1,4 +1,4 @@
-"""Rows at accepted steps, where a problem asks for them: collected, and thinned where they are too many."""
+"""Times of an integration (starts, restarts, outputs, pictures), and rows collected at accepted steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Solver classes of ``scipy.integrate`` under the rules of a method: BDF, Radau and LSODA.
+"""Methods of other packages under our rules: BDF, Radau and LSODA of SciPy, CVODE of SUNDIALS.
 
 BDF: backward differentiation formulae of variable order 1 to 5, quasi-constant step; L. F. Shampine, M. W.
 Reichelt, The MATLAB ODE suite, SIAM J. Sci. Comput. 18 (1997) 1-22. Radau: implicit Runge-Kutta method Radau

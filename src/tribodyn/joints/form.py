@@ -7,8 +7,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.quadrature import gauss_legendre_between
 from tribodyn.core.signals import Signal
+from tribodyn.core.splines import gauss_legendre_between
 
 
 @dataclass(frozen=True)

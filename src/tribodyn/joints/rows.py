@@ -1,4 +1,4 @@
-"""Rows of the nodes of all surfaces, and the angles of those that are rings, as kernels read them."""
+"""Nodes of all surfaces: how many resolve a contact, their rows as kernels read them, angles of rings."""
 
 import math
 from collections.abc import Sequence

@@ -32,7 +32,7 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.core.quadrature import gauss_legendre
+from tribodyn.core.splines import gauss_legendre
 from tribodyn.kernels import dense
 from tribodyn.kernels.film.data import FlowTable
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import TIME, Table, names, slices
-from tribodyn.kernels.film.quantities import FILM, FILM_PEAKS
+from tribodyn.kernels.film.report import FILM, FILM_PEAKS
 from tribodyn.kernels.joints.surface.quantities import PEAKS, PLASTIC
 from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
 from tribodyn.mechanism.model.reversals import PEAKS as REVERSAL_PEAKS

@@ -1,4 +1,4 @@
-"""Key results of the outputs of a mechanism: how far they are from the ideal motion."""
+"""Key results of the outputs of a mechanism: errors against the ideal motion, also at chosen instants."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loads of a case as the terms that kernels add up."""
+"""Loads of a case as the terms that kernels add up, and the segments between the kinks of tables."""
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

@@ -9,7 +9,7 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
-from tribodyn.kernels import signals as kinds
+from tribodyn.kernels import actions as kinds
 from tribodyn.kernels.arrays import new_records
 
 NO_KINKS: Final = np.empty(0)

@@ -1,4 +1,4 @@
-"""The figures of a result as files: which there are, and drawing them."""
+"""The figures of a result as files, and a result as a film or as moving solids: GIF, MP4 or glTF."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From plain arrays to the dataset a run returns, with units and meanings attached.
+"""From plain arrays to the dataset a run returns, with units, meanings and the table of attributes.
 
 Here and in modules that every command imports, xarray is imported where it is used: it takes half a second.
 """

@@ -1,4 +1,4 @@
-"""Types of variables of results, and variables that several mechanisms share.
+"""Types of variables of results, and variables that several mechanisms share, outputs among them.
 
 One line a variable, listed once: here where mechanisms share it, beside the mechanism where it is its own.
 The builder, the NetCDF file and the documentation follow. All values are SI with angles in radians.

@@ -1,4 +1,4 @@
-"""Wear over many cycles by cycle jumping.
+"""Wear over many cycles by cycle jumping, and its numbers at every stop.
 
 A campaign stops at some cycles. At each stop one drive cycle is simulated with the bushing as worn as it is
 then, from the state and the memory of contact in which the cycle simulated before it ended. Its sliding load

@@ -1,4 +1,4 @@
-"""The points of a sweep on disk, each in a folder named by its hash.
+"""The points of a sweep on disk, each in a folder named by its hash, and merged to one dataset.
 
 ``summary.json`` is written last, and it is the mark of a point that is done.
 """

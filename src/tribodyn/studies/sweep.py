@@ -1,4 +1,4 @@
-"""A sweep from its plan to the merged dataset and its files."""
+"""A sweep from its plan to the merged dataset and its files, with the time that it will take."""
 
 from __future__ import annotations
 

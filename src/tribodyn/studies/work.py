@@ -1,4 +1,4 @@
-"""Task of a worker: one point, from the text of a case to numbers and bytes.
+"""Work of every runner: one point, from the text of a case to numbers and bytes.
 
 It writes no file but the whole result, where it is given a folder for that.
 """

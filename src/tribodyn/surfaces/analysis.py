@@ -1,4 +1,4 @@
-"""From a scan to roughness parameters, and how they depend on the wavelengths that are let in."""
+"""From a scan to roughness parameters and their dependence on wavelengths, with the spectrum for the eye."""
 
 import math
 from collections.abc import Iterator

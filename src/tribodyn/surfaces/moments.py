@@ -1,4 +1,4 @@
-"""Spectral moments: the variances of height, slope and curvature, from central differences.
+"""Spectral moments, and the asperities of contact laws that follow from them.
 
 m0 = ⟨z²⟩, m2 = ⟨(∂z/∂x)²⟩, m4 = ⟨(∂²z/∂x²)²⟩ of a profile, which for an isotropic surface are the same
 in all directions (Nayak 1971; McCool 1987). Of a map they are taken along x and y, and as the means over

@@ -1,4 +1,4 @@
-"""A table of numbers in a text, made while it is read."""
+"""A table of numbers in a text, made block by block while it is read."""
 
 from __future__ import annotations
 

@@ -18,12 +18,11 @@ from typing import Any, Final
 import numpy as np
 
 from tribodyn.cases.units import number_in
-from tribodyn.validation.catalogue import ValidationSet, load
+from tribodyn.validation.catalogue import ValidationSet, Varied, load, varied
 from tribodyn.validation.sets.journal_peak_pressure import compare as peak
 from tribodyn.validation.sets.oblique_impact import compare as oblique
 from tribodyn.validation.sets.screw_drive_friction import compare as screw
 from tribodyn.validation.sets.servo_play import compare as play
-from tribodyn.validation.vary import Varied, varied
 
 FILE: Final = "predictions.toml"
 HELD_LOAD: Final = 450.0

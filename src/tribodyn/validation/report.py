@@ -1,4 +1,4 @@
-"""Results of validation sets as text, JSON and Markdown pages."""
+"""Results of validation sets as text, JSON and Markdown pages, and their files."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""A user's own measurements, judged by the rules of the validation sets.
+"""A user's own measurements, judged by the rules of the validation sets; files to fill in.
 
 The file has a row for each number, named as a key result of the case and in its unit::
 
@@ -37,8 +37,7 @@ from tribodyn.simulation import simulate
 from tribodyn.studies.calibration import VariedKey
 from tribodyn.studies.measured import Measured, MeasuredCurve, MeasuredNumber, read
 from tribodyn.validation.base import Band, Comparison, Curve, Kind, Outcome, Plot, Sides
-from tribodyn.validation.catalogue import ValidationSet
-from tribodyn.validation.vary import sides_of
+from tribodyn.validation.catalogue import ValidationSet, sides_of
 
 LARGEST: Final = 1_000_000
 MOST: Final = 1000

@@ -1,4 +1,4 @@
-"""The bushing laid flat, as the script ``field`` draws it."""
+"""The bushing laid flat: where it is cut open, and its part that the script ``field`` draws."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.coordinates import coordinates
 from tribodyn.views.encode import stepped
 from tribodyn.views.events import (
     finite,
@@ -28,7 +27,7 @@ from tribodyn.views.events import (
 )
 from tribodyn.views.numbers import fitting
 from tribodyn.views.playback import time_unit
-from tribodyn.views.section import Payload, Section
+from tribodyn.views.section import Payload, Section, coordinates
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,4 +1,4 @@
-"""Common scales of several results of one mechanism, so that their peaks can be compared."""
+"""Several results on one page: common scales, and the same quantity curve over curve."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence

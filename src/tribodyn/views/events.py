@@ -1,4 +1,4 @@
-"""Reversals of the motion."""
+"""Variables of a result as arrays to draw, and the reversals of its motion."""
 
 from __future__ import annotations
 

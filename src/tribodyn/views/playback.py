@@ -1,4 +1,4 @@
-"""Times at which motion is drawn: those of the time slider, and those that cubics between rows need."""
+"""Times at which motion is drawn, and its magnification in a clearance."""
 
 from __future__ import annotations
 

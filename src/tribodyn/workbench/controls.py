@@ -1,4 +1,4 @@
-"""Controls of a case: one a key, the most important ones first."""
+"""Controls of a case: one a key, the most important ones first, with round ends of their sliders."""
 
 import math
 import re

@@ -1,11 +1,13 @@
-"""Messages from a page: their kinds and fields."""
+"""Messages from a page, their kinds and fields; and frames of results on their way to it."""
 
 import json
+import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final, TypeAlias
 
 from tribodyn.core.quoting import brief
+from tribodyn.views.encode import block
 
 LARGEST: Final = 65_536
 """Length of a message [bytes]."""
@@ -215,3 +217,33 @@ def _value(key: str, value: object) -> str:
     if not isinstance(value, str) or len(value) > _LONGEST_TEXT:
         raise InvalidMessage(f"{brief(key)}: a text of at most {_LONGEST_TEXT} characters is needed")
     return value
+
+
+MAGIC: Final = 0x31464254
+KEPT: Final = 1
+"""Flag of a frame that was computed for an earlier request."""
+_START: Final = struct.Struct("<IIII")
+
+
+def body(header: Mapping[str, Any]) -> bytes:
+    """Return all of a frame but its first sixteen bytes, after the length of its header.
+
+    Parameters
+    ----------
+    header
+        What the page reads. Arrays in it, at any depth, become their kind with offset and length.
+    """
+    length, content = block(header)
+    return struct.pack("<I", length) + content
+
+
+def addressed(content: bytes, number: int, flags: int) -> bytes:
+    """Return the frame that answers a request with a body."""
+    (length,) = struct.unpack_from("<I", content)
+    return _START.pack(MAGIC, number, length, flags) + memoryview(content)[4:]
+
+
+def header(content: bytes) -> dict[str, Any]:
+    """Return the header of a body."""
+    (length,) = struct.unpack_from("<I", content)
+    return dict(json.loads(content[4 : 4 + length]))

@@ -15,7 +15,7 @@ from functools import partial
 from typing import Any, Final
 
 from tribodyn.core.errors import TribodynError
-from tribodyn.workbench import frame
+from tribodyn.workbench import messages
 from tribodyn.workbench.edits import edited
 from tribodyn.workbench.messages import (
     Cancel,
@@ -207,7 +207,7 @@ class PageSession:
         """Send the answer to a request; False if the page got the reason why there is none."""
         kept = self.state.kept.frame(variant.run)
         if kept is not None:
-            self._deliver(kept, request.number, frame.KEPT)
+            self._deliver(kept, request.number, messages.KEPT)
             return True
         expected = self.state.costs.expected(variant.case) or 0.0
         reason = self._why_ask(variant, expected)
@@ -286,7 +286,7 @@ class PageSession:
         if self._undrawn is not None:
             self._unsent = content, number, flags
             return
-        self.send(frame.addressed(content, number, flags))
+        self.send(messages.addressed(content, number, flags))
         self._undrawn = number
         loop = asyncio.get_running_loop()
         self._patience = loop.call_later(_UNDRAWN, self._drawn, number)

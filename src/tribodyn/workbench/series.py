@@ -13,7 +13,7 @@ from tribodyn.cases.tables import plain_path
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.results.summary import EFFORT
-from tribodyn.workbench import frame
+from tribodyn.workbench import messages
 from tribodyn.workbench.controls import shown_number, text
 from tribodyn.workbench.messages import Slope, Sweep, Values
 from tribodyn.workbench.server_state import ServerState, in_words, refuse_rows
@@ -90,7 +90,7 @@ class Series:
             "failure": "",
         }
         try:
-            found = frame.header(await self._frame(variant))
+            found = messages.header(await self._frame(variant))
         except Failed as error:
             return point | {"failure": str(error)}
         return point | {name: found[name] for name in ("results", "failure")}

@@ -1,4 +1,4 @@
-"""State that all pages of a server share: the case, the workers, the runs that are kept, and their cost."""
+"""State that all pages of a server share: the case, the workers, the kept runs, and the cost of runs."""
 
 import asyncio
 import math

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import Stopped, TribodynError
 from tribodyn.core.versions import unexpected
-from tribodyn.workbench import frame
+from tribodyn.workbench import messages
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,7 +74,7 @@ def picture(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop
     """
     began = time.perf_counter()
     found = shown(_simulated(case, progress, stop))
-    return frame.body({**order["header"], **found, "seconds": time.perf_counter() - began})
+    return messages.body({**order["header"], **found, "seconds": time.perf_counter() - began})
 
 
 def shown(dataset: xr.Dataset) -> dict[str, Any]:

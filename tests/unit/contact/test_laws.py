@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, law
 from tribodyn.contact.asperities import AsperityLaw
-from tribodyn.contact.greenwood_williamson import GreenwoodWilliamson
+from tribodyn.contact.greenwood_tripp import GreenwoodWilliamson
 from tribodyn.core.errors import InputError
 
 H_STAR = np.linspace(-4.0, 8.0, 121)

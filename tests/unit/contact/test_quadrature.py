@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.contact.quadrature import asperity_integral, density, exceedance
+from tribodyn.contact.contact_law import asperity_integral, density, exceedance
 from tribodyn.core.arrays import FloatArray
 
 

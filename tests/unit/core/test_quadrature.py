@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.core.quadrature import gauss_legendre, gauss_legendre_between
+from tribodyn.core.splines import gauss_legendre, gauss_legendre_between
 
 
 def test_it_integrates_polynomials_of_twice_the_degree_exactly() -> None:

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.film.factors import cubic, mean_gap, place
+from tribodyn.kernels.film.gap import cubic, mean_gap, place
 from tribodyn.lubrication import Roughness
 from tribodyn.lubrication.factors import (
     PEKLENIK,

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from tribodyn.validation.base import Band, Comparison, Verdict
-from tribodyn.validation.catalogue import Input
+from tribodyn.validation.catalogue import Input, varied
 from tribodyn.validation.report import allowed, with_width
-from tribodyn.validation.vary import varied
 
 
 def _band(**limits: object) -> Band:

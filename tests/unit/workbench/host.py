@@ -19,7 +19,7 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.views.encode import packed
-from tribodyn.workbench import frame
+from tribodyn.workbench import messages
 from tribodyn.workbench.access import AccessControl, Endpoint, UserSession
 from tribodyn.workbench.handlers import PAGE, ServerContext, application
 from tribodyn.workbench.server import listening
@@ -77,7 +77,7 @@ class Pretending(WorkerPool):
         if job.order["work"] != "picture":
             return b"a file"
         shown = {"results": {"a": 1.0}, "failure": "", "sections": {"one": {"x": packed([1.0, 2.0])}}}
-        return frame.body({**job.order["header"], **shown})
+        return messages.body({**job.order["header"], **shown})
 
 
 @dataclass
@@ -92,7 +92,7 @@ class Answer:
 
 def unframed(content: bytes) -> Answer:
     magic, number, length, flags = struct.unpack_from("<IIII", content)
-    assert magic == frame.MAGIC
+    assert magic == messages.MAGIC
     assert length % 8 == 0
     return Answer(number, flags, json.loads(content[16 : 16 + length]), content[16 + length :])
 

@@ -10,7 +10,7 @@ from tests.unit.workbench.host import SOON, Answer, Pretending, hosting, in_loop
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.workbench import page_session
-from tribodyn.workbench.frame import KEPT
+from tribodyn.workbench.messages import KEPT
 from tribodyn.workbench.page_session import _UNHURRIED as UNHURRIED
 from tribodyn.workbench.server_state import Rules
 from tribodyn.workbench.variant import Origin

@@ -14,7 +14,7 @@ from tests.unit.workbench.host import SOON, own_loop
 
 from tribodyn.core import fork_server
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.workbench import frame
+from tribodyn.workbench import messages
 from tribodyn.workbench.work import Limits
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job, WorkerPool
 
@@ -59,7 +59,7 @@ async def at_work(made: WorkerPool) -> int:
 
 def numbers(content: bytes) -> dict[str, Any]:
     """Return what a frame shows, without what the run took."""
-    header = frame.header(content)
+    header = messages.header(content)
     return {"sections": header["sections"]} | {k: v for k, v in header["results"].items() if k not in EFFORT}
 
 
@@ -69,7 +69,7 @@ def test_a_worker_killed_in_mid_run_goes_unnoticed_but_for_the_time(with_pool: T
         again = asyncio.create_task(made.do(job(LONG.replace({"run.cycles": "12"}))))
         victim = await at_work(made)
         os.kill(victim, signal.SIGKILL)
-        assert frame.header(await again)["failure"] == ""
+        assert messages.header(await again)["failure"] == ""
         assert made.workers[0].process.pid != victim
         # The same case is the same frame from any worker.
         assert numbers(await made.do(job())) == numbers(first)
@@ -100,7 +100,7 @@ def test_what_nobody_waits_for_makes_room_and_is_done_later(with_pool: Test) -> 
         await at_work(made)
         assert await made.do(job())
         assert not later.done()
-        assert frame.header(await later)["failure"] == ""
+        assert messages.header(await later)["failure"] == ""
 
     with_pool(test)
 

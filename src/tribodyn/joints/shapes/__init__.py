@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import Final
 
-from tribodyn.joints.shapes.annulus import Annulus
 from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.mesh import Mesh
+from tribodyn.joints.shapes.rings import Annulus
 from tribodyn.joints.shapes.round import Ball, Sphere
 from tribodyn.joints.shapes.surface import Points, Shape, Surface
 

@@ -12,8 +12,7 @@ import numpy as np
 
 from tribodyn.core.errors import InputError
 from tribodyn.joints.form import Form
-from tribodyn.joints.shapes.annulus import Annulus
-from tribodyn.joints.shapes.rings import Rings, with_edges
+from tribodyn.joints.shapes.rings import Annulus, Rings, with_edges
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive
 from tribodyn.kernels.joints.surface.bulk import RING
 from tribodyn.kernels.joints.surface.tilt import AXIS

@@ -1,15 +1,17 @@
-"""Nodes on surfaces of revolution: rings of equal angles at Gauss-Legendre points, and on the edges."""
+"""Surfaces of revolution: rings of equal angles at Gauss-Legendre points, on edges, and across the axis."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.quadrature import gauss_legendre_between
-from tribodyn.joints.shapes.surface import Surface
+from tribodyn.core.errors import InputError
+from tribodyn.core.splines import gauss_legendre_between
+from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.data import Row
+from tribodyn.kernels.joints.surface.tilt import AXIS
 
 EDGES: Final = 2
 """Rows on the edges of a surface, which weigh nothing."""
@@ -96,3 +98,56 @@ class Rings:
         rows["normal"][:, 0], rows["normal"][:, 2] = self.radial, self.axial
         rows["arm"] = self.height * self.radial - self.radius * self.axial
         return rows
+
+
+@dataclass(frozen=True)
+class Annulus:
+    """Sizes of a flat ring [m].
+
+    Attributes
+    ----------
+    inner, outer
+        Its radii.
+    clearance
+        Gap as drawn; 0 for faces that lie on each other.
+    height
+        Of the face along the axis, from the joint's point.
+    direction
+        From the shaft into the socket: 1 along the axis, −1 against it, as a collar that rests on its
+        bushing.
+    """
+
+    inner: float
+    outer: float
+    clearance: float = 0.0
+    height: float = 0.0
+    direction: float = -1.0
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that make no ring."""
+        check_positive("annulus", outer=self.outer)
+        if not 0.0 <= self.inner < self.outer:
+            raise InputError(
+                f"must be larger than the inner radius {self.inner:g} m, not {self.outer:g} m", key="outer"
+            )
+        if not self.clearance >= 0.0:
+            raise InputError(f"must not be negative, as {self.clearance:g}", key="axial")
+        if abs(self.direction) != 1.0:
+            raise InputError(f"must be 1 or -1, not {self.direction:g}", key="direction")
+
+    def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
+        """Return the ring."""
+        return (self.surface("face", grid),)
+
+    def surface(self, name: str, grid: tuple[int, int]) -> Surface:
+        """Return the ring under a name."""
+        n_theta, n_rho = grid
+        rho, weight = across(self.inner, self.outer, n_rho)
+        ones = np.ones(rho.size)
+        rings = Rings(rho, self.height * ones, 0.0 * ones, self.direction * ones, rho * weight)
+        surface = rings.surface(name, ("rho", rho), self.clearance, n_theta, AXIS)
+        return replace(surface, size=0.5 * (self.outer - self.inner))
+
+    def points(self) -> Points:
+        """Refuse a point contact."""
+        return no_points("flat ring")

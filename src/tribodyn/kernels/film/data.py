@@ -1,12 +1,13 @@
-"""Data and memory of the kernels of the film."""
+"""Data and memory of the kernels of the film, of one and of several."""
 
-from typing import Annotated, Final, NamedTuple
+from typing import Annotated, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix, IntMatrix
 from tribodyn.core.quantities import Record, record_type
+from tribodyn.kernels.jit import inlined
 
 IntArray = NDArray[np.int64]
 FlagArray = NDArray[np.int8]
@@ -261,3 +262,46 @@ class FilmMemory(NamedTuple):
     transport: FloatMatrix
     amount: FloatArray
     work: Annotated[Record, Work]
+
+
+@inlined
+def film_at(films: FilmData, k: int) -> FilmData:
+    """Return the data of film ``k``."""
+    table: Any = films.table
+    return FilmData(
+        films.constants[k],
+        films.columns[k],
+        films.z_node[k],
+        films.z_face[k],
+        films.wear_node[k],
+        films.wear_theta[k],
+        films.wear_z[k],
+        FlowTable(table.inverse_step[k], table.factors[k], table.gap_step[k], table.mean_gap[k]),
+    )
+
+
+@inlined
+def memory_at(memory: FilmMemory, k: int) -> FilmMemory:
+    """Return the memory of film ``k``."""
+    fields, system = memory.fields, memory.system
+    return FilmMemory(
+        memory.active[k],
+        memory.pressure[k],
+        memory.fill[k],
+        memory.adjoint[k],
+        memory.gradient[k],
+        FilmFields(fields.columns[k], fields.rows[k], fields.cells[k], fields.z_faces[k]),
+        BandSystem(
+            system.number[k],
+            system.reach[k],
+            system.band[k],
+            system.border[k],
+            system.corner[k],
+            system.right[k],
+            system.single[k],
+            system.size[k],
+        ),
+        memory.transport[k],
+        memory.amount[k],
+        memory.work[k],
+    )

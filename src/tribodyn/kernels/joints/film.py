@@ -17,8 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
-from tribodyn.kernels.film.quantities import Peaks, Report
-from tribodyn.kernels.film.report import film_leakage, film_peak
+from tribodyn.kernels.film.report import Peaks, Report, film_leakage, film_peak
 from tribodyn.kernels.film.wrench import derivatives_in_chart, wrench_in_chart
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.pose import W

@@ -15,9 +15,9 @@ A *coordinate* row is the equation of an element, such as a gear pair: over its 
 
     Φ = Σ (b·d + a θ) − c,   Φ̇ = Σ (b·v + a g·ω),   Φ̈ = Σ (b·v̇ + a (g·ω̇ + ġ·ω)),
 
-with the angle θ of the shaft and its gradient g; see ``kernels/mechanism/angle.py``. A *distance* row counts
-the distance between the two origins from a length L, and a *path* row the length of the path of the origin,
-of which only the rate matters: with e = d/|d|, or v/|v|,
+with the angle θ of the shaft and its gradient g; see ``kernels/mechanism/relative.py``. A *distance* row
+counts the distance between the two origins from a length L, and a *path* row the length of the path of the
+origin, of which only the rate matters: with e = d/|d|, or v/|v|,
 
     Φ = |d| − L,   Φ̇ = e·v,   Φ̈ = e·v̇ + (v² − (e·v)²)/|d|,   or   Φ̇ = |v|.
 
@@ -29,11 +29,11 @@ import math
 from mebdf.kernels.elementary import cos, sin
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import Signals, evaluate
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.mechanism.angle import angle_gradient, angle_hessian, angle_rate, whole_angle
 from tribodyn.kernels.mechanism.data import ANGLE, COORDINATE, DISTANCE, NONE, PATH, POINT, POSITION
+from tribodyn.kernels.mechanism.relative import angle_gradient, angle_hessian, angle_rate, whole_angle
 from tribodyn.kernels.mechanism.vectors import cross, multiply
-from tribodyn.kernels.signals import Signals, evaluate
 
 
 @kernel

@@ -17,13 +17,12 @@ from typing import Annotated, Final, NamedTuple
 from mebdf.compiled.layouts import STACKED
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.actions import Term
+from tribodyn.kernels.actions import Signals, Term
 from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.kernels.joints.film import Oil
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import Pose
-from tribodyn.kernels.signals import Signals
 
 N: Final = 6
 COLUMN: Final = 8
@@ -435,7 +434,7 @@ class MechanismData(NamedTuple):
     contact
         All joints with clearance.
     films
-        The oil films of all joints that have one, see ``kernels/film/several.py``.
+        The oil films of all joints that have one, see ``kernels/film/data.py``.
     """
 
     parts: Parts

@@ -3,6 +3,7 @@
 from typing import Any
 
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
+from tribodyn.kernels.actions import Signals
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, TURNING, Now, Parts, Pattern
@@ -15,7 +16,6 @@ from tribodyn.kernels.mechanism.solution import (
     mark_angles,
 )
 from tribodyn.kernels.mechanism.vectors import turn
-from tribodyn.kernels.signals import Signals
 
 
 @entry

@@ -10,17 +10,19 @@ from typing import Any
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.actions import add_following, add_terms, norm, oppose, oppose_along
+from tribodyn.kernels.actions import Signals, add_following, add_terms, evaluate, norm, oppose, oppose_along
 from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.film.data import FilmData, FilmMemory, film_at, memory_at
 from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.joints.film import fill_report, film_wrench
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.data import (
     CONTACT,
     DAMPING,
     EXPANSION,
+    FILM,
     FOLLOWED,
     FOLLOWED_SPEED,
     FRICTION,
@@ -39,8 +41,24 @@ from tribodyn.kernels.mechanism.data import (
     MechanismData,
     MechanismMemory,
 )
-from tribodyn.kernels.mechanism.film import film_force
-from tribodyn.kernels.signals import Signals, evaluate
+from tribodyn.kernels.mechanism.relative import whole_angle
+
+
+@kernel
+def film_force(
+    mode: float, films: FilmData, memory: FilmMemory, k: int, now: Record, scratch: Record, oil: Any
+) -> None:
+    """Add the wrench of film ``k`` to that of its coupling, ``now``, and what else ``mode`` asks for.
+
+    ``scratch`` is that of the joints with clearance.
+    """
+    film, own, slopes = film_at(films, k), memory_at(memory, k), 1.0 if mode == SLOPES else 0.0
+    film_wrench(film, own, now.pose, scratch, oil[k], slopes, now.slope)
+    if mode == REPORTS:
+        fill_report(film, own, now.pose, oil[k])
+        now.powers[FILM] += oil[k].power
+    for i in range(6):
+        now.wrench[i] += oil[k].wrench[i]
 
 
 @inlined

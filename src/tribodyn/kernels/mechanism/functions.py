@@ -1,16 +1,17 @@
-"""The compiled functions of any mechanism, as the protocol in ``core/problem.py`` asks for them."""
+"""The compiled functions of any mechanism, as ``core/problem.py`` asks for them; the loop over steps."""
 
 import math
-from typing import Final
+from typing import Any, Final
 
 from mebdf.kernels.arrays import copy
 from tribodyn.core.arrays import FloatArray, FloatMatrix
+from tribodyn.kernels.film.data import film_at, memory_at
 from tribodyn.kernels.film.report import film_pressure
-from tribodyn.kernels.film.several import film_at, memory_at
 from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.joints.film import note_film_peaks
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.memory import note_peaks
+from tribodyn.kernels.mebdf.drive import loop
 from tribodyn.kernels.mechanism import ledger
 from tribodyn.kernels.mechanism.bodies import rates
 from tribodyn.kernels.mechanism.data import (
@@ -28,11 +29,10 @@ from tribodyn.kernels.mechanism.derivatives import fill_derivatives
 from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
 from tribodyn.kernels.mechanism.law import remember_entry
-from tribodyn.kernels.mechanism.newton import fill_entries
-from tribodyn.kernels.mechanism.observe import fill_row
+from tribodyn.kernels.mechanism.newton import factorise, fill_entries, solve
+from tribodyn.kernels.mechanism.observe import fill_row, watch
 from tribodyn.kernels.mechanism.redundancy import choose_rows
 from tribodyn.kernels.mechanism.solution import accelerations, mark_angles, settle
-from tribodyn.kernels.mechanism.watch import watch
 
 BEFORE_KINK: Final = 1.0e-9
 """Part of a segment by which its pieces end before the kink."""
@@ -177,3 +177,16 @@ def picture(
         first = data.contact.nodes.shape[1] + k * n_theta * n_z
         field = fields[first : first + n_theta * n_z].reshape((n_z, n_theta))
         film_pressure(film_at(data.films, k), memory_at(memory.films, k), field)
+
+
+LOOP: Final = loop(rhs, jac_entries, advance, accept, observe, picture, factorise, solve)
+FUNCTIONS: Final[dict[str, Any]] = {
+    "rhs": rhs,
+    "jac": jac_entries,
+    "enter": enter,
+    "advance": advance,
+    "accept": accept,
+    "observe": observe,
+    "picture": picture,
+}
+"""Functions by the names that ``CompiledFunctions`` of ``core/problem.py`` has for them."""

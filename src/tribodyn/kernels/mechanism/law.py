@@ -14,9 +14,9 @@ from typing import Any, Final
 from mebdf.compiled.kernel import UNCOMPILED, Instruction, Kernel, enlisted
 from mebdf.compiled.layouts import One
 from tribodyn.core.quantities import Record, RecordType, record_type
+from tribodyn.kernels.actions import Signals, evaluate
 from tribodyn.kernels.jit import SOURCES, kernel
 from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, WORK, Law
-from tribodyn.kernels.signals import Signals, evaluate
 
 
 @dataclass(frozen=True, eq=False)

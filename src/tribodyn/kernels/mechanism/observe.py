@@ -1,23 +1,30 @@
-"""Rows of observed quantities."""
+"""Rows of observed quantities, and joints whose model no longer holds."""
 
 import math
-from typing import Any
+from typing import Any, Final
 
 from mebdf.kernels.arrays import copy
+from mebdf.kernels.elementary import hypot
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.data import (
     ANGLE,
     CONTACT,
+    COORDINATE,
     DAMPING,
+    DISTANCE,
     EXPANSION,
     FILM,
     FRICTION,
+    INTACT,
+    LEFT,
     NONE,
+    OPENED,
+    OVERLAPPED,
+    POINT,
     POSITION,
     WORK,
     MechanismData,
@@ -26,6 +33,7 @@ from tribodyn.kernels.mechanism.data import (
     Parts,
 )
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE, Body, Coupling, Whole
+from tribodyn.kernels.mechanism.relative import whole_angle
 from tribodyn.kernels.mechanism.vectors import turn, turn_back
 
 
@@ -147,3 +155,38 @@ def _film(k: int, oil: Any, out: Record) -> None:
     copy(report.film_moment, out.film_moment)
     out.film_pressure_max, out.film_thickness_min = report.film_pressure_max, report.film_thickness_min
     out.film_leakage = report.film_leakage
+
+
+OPEN: Final = 1.0e-6
+"""Residual of an ideal joint, in units of the mechanism's size or in radians, that is not rounding."""
+
+
+@kernel
+def watch(data: MechanismData, memory: MechanismMemory) -> None:
+    """Note the first joint whose model does not hold where ``advance`` has left the mechanism."""
+    course, size = memory.now.course, data.parts.constants.size
+    for k in range(data.parts.couplings.size):
+        if course.broken != INTACT:
+            return
+        coupling, now = data.parts.couplings[k], memory.now.couplings[k]
+        for m in range(coupling.n_rows):
+            is_length = coupling.row_kind[m] in (POINT, POSITION, COORDINATE, DISTANCE)
+            if not abs(now.residual[m]) <= OPEN * (size if is_length else 1.0):
+                course.broken, course.broken_at = OPENED, k
+        if coupling.force == CONTACT:
+            _watch_surfaces(data.contact, memory.contact, coupling.contact, now.pose.d, course)
+
+
+@kernel
+def _watch_surfaces(
+    joints: SurfaceData, memory: SurfaceMemory, j: int, d: FloatArray, course: Record
+) -> None:
+    """Note the first surface of a joint that is beyond its contact law, or whose shaft has left it."""
+    for s in range(joints.joints[j], joints.joints[j + 1]):
+        surface = joints.surfaces[s]
+        if memory.reports[s].separation_min < surface.deepest:
+            course.broken, course.broken_at = OVERLAPPED, s
+            return
+        if hypot(d[0], d[1]) > surface.reach[0] or abs(d[2]) > surface.reach[1]:
+            course.broken, course.broken_at = LEFT, s
+            return

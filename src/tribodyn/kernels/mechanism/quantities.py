@@ -3,7 +3,7 @@
 from typing import Final
 
 from tribodyn.core.quantities import Quantity, of_table
-from tribodyn.kernels.film.quantities import FILM
+from tribodyn.kernels.film.report import FILM
 
 WHOLE: Final = (
     Quantity("energy_kinetic", "J", "kinetic energy"),

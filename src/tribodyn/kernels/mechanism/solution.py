@@ -29,8 +29,8 @@ from typing import Annotated, Final
 from mebdf.kernels.elementary import hypot
 from tribodyn.core.arrays import FloatArray, FloatCube
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import Signals
 from tribodyn.kernels.jit import entry, inlined, kernel
-from tribodyn.kernels.mechanism.angle import whole_angle
 from tribodyn.kernels.mechanism.bodies import collect, make_unit, move, own_force, place
 from tribodyn.kernels.mechanism.constraints import fill_rates, fill_rows, prescribe
 from tribodyn.kernels.mechanism.data import (
@@ -51,8 +51,7 @@ from tribodyn.kernels.mechanism.data import (
 from tribodyn.kernels.mechanism.equations import assemble, energy_of_motion, has_law, solve_near, solve_rows
 from tribodyn.kernels.mechanism.forces import force
 from tribodyn.kernels.mechanism.law import call_law, fill_law
-from tribodyn.kernels.mechanism.relative import relative_position, relative_velocity
-from tribodyn.kernels.signals import Signals
+from tribodyn.kernels.mechanism.relative import relative_position, relative_velocity, whole_angle
 
 HARD: Final = 1.0e-8
 SOFT: Final = 1.0

@@ -1,12 +1,26 @@
-"""Loop closure of the mechanism with the trunnion where it is, Eqs. 11-18."""
+"""Loop closure with the trunnion where it is, Eqs. 11-18, in a clearance that may follow temperatures."""
 
 import math
 from typing import Annotated, Final
 
 from mebdf.kernels.elementary import cos, sin
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import NONE, evaluate, held
 from tribodyn.kernels.jit import entry, inlined, kernel
-from tribodyn.kernels.vsv.data import Mechanism
+from tribodyn.kernels.joints.paper import fill_pose
+from tribodyn.kernels.vsv.data import TIME, Mechanism, VsvData, VsvMemory
+
+
+@entry
+def place(data: VsvData, t: float, y: FloatArray, omega: float, direction: float, memory: VsvMemory) -> None:
+    """Fill the pose of the joint from the state ``y`` (8,), the speed ω_v [rad/s] and its direction."""
+    pose, number = memory.joint.scratch.pose, int(data.mechanism.opening)
+    fill_pose(y, omega, direction, pose)
+    if number != NONE:
+        within = held(memory.segment, TIME, t)
+        pose.opening, pose.v_opening, _ = evaluate(data.actions.signals, number, t, within)
+
 
 MAX_NEWTON = 30
 CONVERGED = 1.0e-10

@@ -17,6 +17,7 @@ from tribodyn.kernels.joints import collar as thrust
 from tribodyn.kernels.joints.bushing import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
 from tribodyn.kernels.linalg import solve_in_place
+from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import (
     AIR_M,
     AIR_X,
@@ -32,7 +33,6 @@ from tribodyn.kernels.vsv.data import (
     VsvData,
     VsvMemory,
 )
-from tribodyn.kernels.vsv.drive import drive
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -57,8 +57,7 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
-from tribodyn.kernels.vsv.motion import fill_motion, ring_centre
-from tribodyn.kernels.vsv.place import place
+from tribodyn.kernels.vsv.motion import drive, fill_motion, ring_centre
 from tribodyn.kernels.vsv.printed import add_printed_entries, fill_printed_motion, fill_printed_tests
 
 

@@ -1,18 +1,20 @@
-"""The compiled functions of the VSV problem, as the protocol in ``core/problem.py`` asks for them."""
+"""The compiled functions of the VSV problem for the protocol of ``core/problem.py``; the loop over steps."""
 
 import math
-from typing import Final
+from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.kernels.actions import begin_segment
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry
 from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
+from tribodyn.kernels.mebdf.drive import loop
 from tribodyn.kernels.vsv import ledger
+from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
 from tribodyn.kernels.vsv.layout import THETA_V, VALUE
-from tribodyn.kernels.vsv.place import place
+from tribodyn.kernels.vsv.observe import observe
 
 BEYOND: Final = 2
 """Entry of the regime that is above zero once a step was accepted beyond a limit. From then on no force is a
@@ -107,3 +109,16 @@ def kinetostatic_residual(
             for j in range(4):
                 total += memory.scratch.mass[1 + i, j] * memory.scratch.solved[j, 1 + k]
             jacobian[i, k] = total
+
+
+LOOP: Final = loop(rhs, jac, advance, accept, observe, picture)
+FUNCTIONS: Final[dict[str, Any]] = {
+    "rhs": rhs,
+    "jac": jac,
+    "enter": enter,
+    "advance": advance,
+    "accept": accept,
+    "observe": observe,
+    "picture": picture,
+}
+"""Functions by the names that ``CompiledFunctions`` of ``core/problem.py`` has for them."""

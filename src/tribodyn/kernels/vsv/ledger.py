@@ -20,7 +20,7 @@ from tribodyn.kernels.ledger import begin as begin_works
 from tribodyn.kernels.peaks import begin as begin_peaks
 from tribodyn.kernels.peaks import note as note_peaks
 from tribodyn.kernels.peaks import resume as resume_peaks
-from tribodyn.kernels.vsv.closure import vane_attitude
+from tribodyn.kernels.vsv.closure import place, vane_attitude
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, BEND_X, BEND_Y, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
 from tribodyn.kernels.vsv.layout import (
@@ -41,7 +41,6 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
-from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import Forces, Powers, Watched
 
 

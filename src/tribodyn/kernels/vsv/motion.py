@@ -1,4 +1,4 @@
-"""Positions, velocities and accelerations of every body as a motion table, section 2.2 of the paper.
+"""Motion of the crank, and positions, velocities and accelerations of every body, section 2.2 of the paper.
 
 ``exact``: everything follows from the closure with the trunnion where it is; derivatives by
 implicit differentiation. ``paper``: the rods follow the ideal closure and the clearance motion
@@ -12,9 +12,11 @@ import numpy as np
 from mebdf.kernels.elementary import atan2, cos, sin, tan
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
+from tribodyn.kernels.actions import evaluate, held
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv.closure import ring_end, vane_attitude
+from tribodyn.kernels.vsv.closure import ring_end, sinusoid, vane_attitude
+from tribodyn.kernels.vsv.data import CRANK, TIME, VsvData
 from tribodyn.kernels.vsv.layout import (
     BIAS,
     E_X,
@@ -41,6 +43,24 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
+
+
+@kernel
+def drive(data: VsvData, segment: Record, t: float) -> tuple[float, float, float]:
+    """Return crank angle [rad], speed [rad/s] and acceleration [rad/s²] at ``t`` [s] within a segment."""
+    if data.mechanism.tabulated == 0.0:
+        return sinusoid(data.mechanism, t)
+    return _tabulated(data, segment, t)
+
+
+@kernel
+def _tabulated(data: VsvData, segment: Record, t: float) -> tuple[float, float, float]:
+    """Return the same from the signal.
+
+    Apart, because whatever reaches into ``data.actions`` pays for it on every path: its arrays are counted.
+    """
+    return evaluate(data.actions.signals, CRANK, t, held(segment, TIME, t))
+
 
 Crank: TypeAlias = tuple[float, float, float]
 """Angle of the crank [rad], its speed [rad/s] and acceleration [rad/s²]."""

@@ -8,7 +8,6 @@ from tribodyn.kernels.ledger import is_at_mark
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import ideal_vane
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
-from tribodyn.kernels.vsv.drive import drive
 from tribodyn.kernels.vsv.layout import (
     PHI_X,
     PHI_Y,
@@ -21,7 +20,7 @@ from tribodyn.kernels.vsv.layout import (
     VALUE,
     VELOCITY,
 )
-from tribodyn.kernels.vsv.motion import fill_rods
+from tribodyn.kernels.vsv.motion import drive, fill_rods
 from tribodyn.kernels.vsv.quantities import Air, Row, States, Works
 from tribodyn.kernels.vsv.reactions import fill_reactions
 

@@ -1,4 +1,4 @@
-"""Decompositions of matrices of a mechanism, which several searches ask for at the same place."""
+"""Decompositions of a mechanism's matrices, kept by place: dense, and QR of sparse rows for their rank."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.kernels import dense
-from tribodyn.kernels.mechanism import functions, loop, newton
+from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
@@ -19,7 +19,7 @@ from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanisms.shaft_loads import WAVE_STEPS
 from tribodyn.mechanisms.wear_state import Carried
 
-FUNCTIONS: Final = CompiledFunctions(**loop.FUNCTIONS)
+FUNCTIONS: Final = CompiledFunctions(**functions.FUNCTIONS)
 STATES: Final = (
     *("x", "y", "z"),
     *("p_0", "p_1", "p_2", "p_3"),

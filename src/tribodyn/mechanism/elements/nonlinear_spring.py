@@ -1,4 +1,4 @@
-"""Nonlinear spring and damper between two points.
+"""Nonlinear springs and dampers: between two points, and at the angle of a joint.
 
 With the elongation x over its length without force, its rate, and a table T of forces over elongation,
 

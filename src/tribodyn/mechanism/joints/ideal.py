@@ -1,4 +1,4 @@
-"""Joints that are only their constraint equations: lower pairs, a ball on a pin, a rigid connection."""
+"""Joints that are only their constraint equations: lower pairs, a ball on a pin, universal, rigid."""
 
 from typing import ClassVar
 

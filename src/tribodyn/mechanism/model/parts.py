@@ -1,4 +1,4 @@
-"""Bodies, joints and springs of a mechanism: their keys and their cross-checks."""
+"""Bodies, joints, springs and pairs of surfaces of a mechanism: their keys and their cross-checks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Warnings on runs of any mechanism, and why a run stopped where the model of a joint no longer held."""
+"""Warnings on runs of any mechanism: slow sliding, joints whose model ended, and why a run stopped."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence

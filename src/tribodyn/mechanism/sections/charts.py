@@ -1,4 +1,4 @@
-"""Charts over time of any mechanism."""
+"""Charts over time of any mechanism, and the motion of shafts between the rows of a result."""
 
 from dataclasses import dataclass
 from typing import Final

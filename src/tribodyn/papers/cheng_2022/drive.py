@@ -1,4 +1,4 @@
-"""Figures 10 and 11: what the crank does and how the vane follows, without clearance."""
+"""Figures 10 and 11, the vane without clearance; and its error split by joint: the paper's factor seven."""
 
 from typing import Final
 

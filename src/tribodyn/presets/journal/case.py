@@ -1,4 +1,4 @@
-"""The journal bearing of the paper's section 4, dry or lubricated: its keys and its cross-checks."""
+"""The journal of the paper's section 4, dry or in oil: keys, cross-checks, and the mechanism that it is."""
 
 from __future__ import annotations
 

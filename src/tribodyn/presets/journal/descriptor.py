@@ -1,4 +1,4 @@
-"""The journal as the rest of the program sees it."""
+"""The journal as the rest of the program sees it, with the amount of work of its runs."""
 
 import math
 from dataclasses import replace
@@ -9,7 +9,7 @@ from tribodyn.mechanism.workload import workload as of_mechanism
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.workload import Keys, Workload
 from tribodyn.presets.journal.case import JournalCase, mechanism_of
-from tribodyn.presets.journal.results import KEY_RESULTS, VARIABLES
+from tribodyn.presets.journal.system import KEY_RESULTS, VARIABLES
 
 MECHANISM: Final = MechanismDescriptor(
     folder="tribodyn.presets.journal",

@@ -22,7 +22,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.columns import AREA, PITCH, RESISTANCE, STIFFNESS, whole
-from tribodyn.kernels.joints.pressures import fill_pressures, fill_slopes
+from tribodyn.kernels.joints.pressure import fill_pressures, fill_slopes
 from tribodyn.kernels.joints.surface.data import SurfaceData, table_of
 from tribodyn.kernels.joints.surface.listed import (
     FORCE,

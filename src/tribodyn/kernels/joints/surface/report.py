@@ -8,7 +8,7 @@ from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.columns import APPROACH, AREA, FRACTION, INTERVAL, PART, PRESSURE, RIGID
-from tribodyn.kernels.joints.pressures import fill_pressures, weighted_sum
+from tribodyn.kernels.joints.pressure import fill_pressures, weighted_sum
 from tribodyn.kernels.joints.surface import ring_report
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring, table_of
 from tribodyn.kernels.joints.surface.listed import (

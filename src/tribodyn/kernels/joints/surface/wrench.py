@@ -7,7 +7,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.columns import AREA, PITCH, PRESSURE, whole
-from tribodyn.kernels.joints.pressures import fill_pressures
+from tribodyn.kernels.joints.pressure import fill_pressures
 from tribodyn.kernels.joints.surface.data import SurfaceData, table_of
 from tribodyn.kernels.joints.surface.listed import FORCE, NORMAL, POSITION, SLIP, SLIP_SQUARE
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory

@@ -1,4 +1,4 @@
-"""Types of a claim: its sentences in the paper, its measure and its trials."""
+"""Types of a claim: sentences in the paper, measure and trials; the error that smooth motion leaves."""
 
 import inspect
 import tomllib

@@ -1,4 +1,4 @@
-"""Self-checks of a run of the vane mechanism, in plain words."""
+"""Energy balances and self-checks of a run of the vane mechanism, in plain words."""
 
 import math
 from collections.abc import Mapping

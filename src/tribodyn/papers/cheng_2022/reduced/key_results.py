@@ -1,4 +1,4 @@
-"""Key results of the vane mechanism."""
+"""Key results of the vane mechanism, and its output: the vane against a mechanism without clearance."""
 
 from __future__ import annotations
 

@@ -19,9 +19,9 @@ from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
 from tribodyn.kernels.joints.quantities import SHARP, STATES
 from tribodyn.kernels.ledger import NO_SWING, new_books
 from tribodyn.kernels.peaks import new_peaks
-from tribodyn.kernels.vsv import layout, loop
+from tribodyn.kernels.vsv import functions, layout
+from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import Books, Scratch, VsvData, VsvMemory, new_mechanism
-from tribodyn.kernels.vsv.place import place
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, WATCHED
 from tribodyn.mechanisms.shaft_loads import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.signal_pieces import SignalList, pieces_of
@@ -33,7 +33,7 @@ from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
 STARTS: Final = ("equilibrium", "centred")
 
-FUNCTIONS: Final = CompiledFunctions(**loop.FUNCTIONS)
+FUNCTIONS: Final = CompiledFunctions(**functions.FUNCTIONS)
 
 
 def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.inf) -> VsvData:

@@ -16,8 +16,7 @@ from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.equilibrium import Journal, equilibrium
 from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
-from tribodyn.validation.catalogue import ValidationSet
-from tribodyn.validation.vary import varied
+from tribodyn.validation.catalogue import ValidationSet, varied
 
 JUDGED_SPEED: Final = 250.0
 """Speed at which the film is judged [rpm]."""

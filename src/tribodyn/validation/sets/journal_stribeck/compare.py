@@ -13,8 +13,7 @@ from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.stribeck import equilibria
 from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
-from tribodyn.validation.catalogue import ValidationSet
-from tribodyn.validation.vary import varied
+from tribodyn.validation.catalogue import ValidationSet, varied
 
 SPEEDS: Final = np.array([140.0, 130.0, 120.0, 110.0, 100.0, 90.0, 80.0, 70.0, 60.0, 55.0, 50.0, 45.0, 42.0])
 """Speeds of the measured curves [rpm], falling, so that each equilibrium starts from the one before."""

@@ -9,9 +9,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
-from tribodyn.validation.catalogue import ValidationSet
+from tribodyn.validation.catalogue import ValidationSet, varied
 from tribodyn.validation.sets.oblique_impact.rebound import ImpactingSphere, Rebound, TangentialLaw, rebound
-from tribodyn.validation.vary import varied
 
 LAWS: Final[tuple[TangentialLaw, ...]] = ("regularised", "compliant")
 SLIDING: Final = 30.0

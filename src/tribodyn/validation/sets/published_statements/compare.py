@@ -14,8 +14,7 @@ from tribodyn.presets.journal.equilibrium import equilibrium
 from tribodyn.presets.journal.system import journal_of
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
-from tribodyn.validation.catalogue import ValidationSet
-from tribodyn.validation.vary import varied
+from tribodyn.validation.catalogue import ValidationSet, varied
 
 MEASURED_RATIO: Final = 1.5
 """Ratio of the first torques with interference and with clearance."""

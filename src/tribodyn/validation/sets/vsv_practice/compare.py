@@ -12,8 +12,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
-from tribodyn.validation.catalogue import ValidationSet
-from tribodyn.validation.vary import varied
+from tribodyn.validation.catalogue import ValidationSet, varied
 
 STILL_AIR: Final = {
     "loads.air_force_x": "0 N",

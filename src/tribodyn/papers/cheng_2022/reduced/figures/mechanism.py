@@ -11,7 +11,13 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
-from tribodyn.papers.cheng_2022.reduced.places import MM, case_of, crank_pivot, crank_tip, ring_points
+from tribodyn.papers.cheng_2022.reduced.sections.mechanism import (
+    MM,
+    case_of,
+    crank_pivot,
+    crank_tip,
+    ring_points,
+)
 from tribodyn.views.events import finite, series
 
 TITLE: Final = "The mechanism at three vane positions"
