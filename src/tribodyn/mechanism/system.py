@@ -37,7 +37,14 @@ from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.followed import coordinate, followed, power_columns, transmitted, with_motors
+from tribodyn.mechanism.results.followed import (
+    coordinate,
+    followed,
+    power_columns,
+    spring_columns,
+    transmitted,
+    with_motors,
+)
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
@@ -60,11 +67,10 @@ from tribodyn.mechanism.results.output_columns import (
     output_coordinates,
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
-from tribodyn.mechanism.results.springs import spring_columns
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives
-from tribodyn.mechanisms.playback import frame_times, shown
+from tribodyn.mechanisms.results import frame_times, shown
 from tribodyn.mechanisms.self_checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.results.dataset import CARRIED, NOT_KEPT

@@ -1,26 +1,15 @@
-"""The vane mechanism as the rest of the program sees it, with the amount of work of its runs."""
+"""The variable stator vane mechanism as the rest of the program sees it."""
 
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn
-from tribodyn.kernels.joints.quantities import STATES
-from tribodyn.kernels.vsv.quantities import AIR, COLLAR, ENERGIES, MOTION, OBSERVED, REACTIONS, WATCHED
-from tribodyn.mechanisms.bushing import grid_of
+from tribodyn.kernels.vsv.quantities import AIR, COLLAR, ENERGIES, MOTION, REACTIONS, WATCHED
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
-from tribodyn.mechanisms.results import AFTER_REVERSAL, EVEN, MOST_CLOSE
-from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.key_results import KEY_NUMBERS, KEY_RESULTS
-from tribodyn.results.variables import (
-    JUMP,
-    OUTPUTS,
-    OUTPUTS_OF_CYCLE,
-    SNAPSHOT,
-    Variable,
-    described,
-    of_reversals_described,
-)
+from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
+from tribodyn.results.variables import JUMP, SNAPSHOT, Variable, described, of_reversals_described
 
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
@@ -130,50 +119,3 @@ MECHANISM: Final = MechanismDescriptor(
     ),
     bearings="tribodyn.mechanisms.bushing:bearings",
 )
-
-
-_STEPS_OF_REVERSAL: Final = 1150.0
-"""Steps of a reversal at ``rtol`` 1e-3, measured over 2 and 40 cycles and with drives of 1 and 10 rad/s."""
-_STEPS_OF_SECOND: Final = 100.0
-"""Steps of a second between impacts, where the trunnion rings at 30 Hz, from the same."""
-_TOLERANCE_POWER: Final = -0.1
-_SNAPSHOTS: Final = 6.0
-_STRIDE: Final = 3.0
-"""Steps per sample that follows them, see ``times.py``."""
-
-
-def workload(case: VsvCase) -> Workload:
-    """Return the counts of a case."""
-    duration = case.period if case.campaign_cycles else case.duration
-    cycles, run = duration / case.period, case.run
-    around, along = grid_of(case)
-    windows = 1.0 + 2.0 * cycles
-    steps = _STEPS_OF_REVERSAL * (2.0 * cycles) + _STEPS_OF_SECOND * duration
-    length = "run.cycles" if run.cycles is not None else "run.duration"
-    steps *= (case.solver.rtol / 1.0e-3) ** _TOLERANCE_POWER
-    frames = EVEN + min(2 * AFTER_REVERSAL, MOST_CLOSE)
-    return Workload(
-        steps=steps,
-        states=len(STATES),
-        nodes=around * (along + 2.0),
-        joints=1.0,
-        fields=_SNAPSHOTS + frames * min(2.0, max(1.0, cycles)),
-        samples=duration / run.output_interval + windows,
-        followed=min(run.impact_rows * windows, steps / _STRIDE) if run.impact_window else 0.0,
-        quantities=len(OBSERVED),
-        breaks=windows,
-        runs=_runs(case),
-        own_matrix=False,
-        compiled=case.solver.name == "mebdf",
-        keys=Keys(length=length, followed="run.impact_rows"),
-    )
-
-
-def _runs(case: VsvCase) -> float:
-    if not case.campaign_cycles:
-        return 1.0
-    roughness, rows = case.surface_pair.roughness_rms, len(case.temperature_times)
-    return simulated_cycles(case.wear, case.settling_cycles, roughness, case.joint.radius, rows)
-
-
-WORKLOAD: Final = workload
