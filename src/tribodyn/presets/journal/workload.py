@@ -6,8 +6,7 @@ from typing import Final
 
 from tribodyn.mechanism.workload import workload as of_mechanism
 from tribodyn.mechanisms.workload import Keys, Workload
-from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.model import mechanism_of
+from tribodyn.presets.journal.case import JournalCase, mechanism_of
 
 _OF_REBOUND: Final = 35.0
 """Steps of a rebound, measured with ``journal-dry``: 834 steps in 24 rebounds."""

@@ -8,8 +8,15 @@ from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.key_results import KEY_NUMBERS, KEY_RESULTS
-from tribodyn.results.outputs import OUTPUTS, OUTPUTS_OF_CYCLE
-from tribodyn.results.variables import JUMP, SNAPSHOT, Variable, described, of_reversals_described
+from tribodyn.results.variables import (
+    JUMP,
+    OUTPUTS,
+    OUTPUTS_OF_CYCLE,
+    SNAPSHOT,
+    Variable,
+    described,
+    of_reversals_described,
+)
 
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
