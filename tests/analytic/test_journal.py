@@ -15,7 +15,8 @@ from tribodyn.joints.bushing import joint_jacobian, joint_wrench
 from tribodyn.kernels.mechanism.data import TURNING
 from tribodyn.mechanism.mechanism_variables import observed
 from tribodyn.presets.journal.equilibrium import Loads, equilibrium
-from tribodyn.presets.journal.system import journal_of, named_as_printed, system_of
+from tribodyn.presets.journal.results import named_as_printed
+from tribodyn.presets.journal.system import journal_of, system_of
 
 TIGHT = {
     "solver.rtol": 1e-8,

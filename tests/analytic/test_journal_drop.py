@@ -16,7 +16,8 @@ from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
 from tribodyn.kernels.mechanism.data import VELOCITY
 from tribodyn.mechanism.mechanism_variables import observed
-from tribodyn.presets.journal.system import journal_of, named_as_printed, system_of
+from tribodyn.presets.journal.results import named_as_printed
+from tribodyn.presets.journal.system import journal_of, system_of
 
 MakeJoint = Callable[..., BushingJoint]
 MASS = 0.253

@@ -1,4 +1,4 @@
-"""Differences between operating systems: no other module asks which one this is; threads of linear algebra.
+"""Differences between operating systems: no other module asks which one this is.
 
 Linux is what the tests run on. Windows and macOS are run as if: a test takes from Python what they lack.
 """
@@ -11,11 +11,8 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
-
-from threadpoolctl import ThreadpoolController
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -161,20 +158,3 @@ def _lock(handle: int) -> bool | None:
     except OSError:
         return None
     return True
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Have matrices factorised by one thread within the block.
-
-    Matrices of mechanisms are small. Several threads gain nothing there; beside other work they wait for each
-    other and take many times as long, and how many there are decides the last digits of sums.
-    """
-    with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
-        yield
-
-
-@lru_cache(maxsize=1)
-def _libraries(_modules: int) -> ThreadpoolController:
-    """Return the libraries of this process. The search takes milliseconds; only imports add libraries."""
-    return ThreadpoolController()

@@ -70,7 +70,7 @@ from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives
-from tribodyn.mechanisms.results import frame_times, shown
+from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.mechanisms.self_checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.results.dataset import CARRIED, NOT_KEPT

@@ -1,7 +1,7 @@
 from scipy import linalg
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from tribodyn.core.platforms import one_thread
+from tribodyn.core.linear_algebra import one_thread
 
 
 def threads() -> set[int]:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.mechanisms.results import AFTER_REVERSAL, EVEN, frame_times, merged, shown
+from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, frame_times, merged, shown
 
 TURNS = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
 """Reversals of a drive with a period of 2 s, in a run of 6 s."""

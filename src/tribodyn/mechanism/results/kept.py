@@ -30,7 +30,7 @@ from tribodyn.mechanism.results.followed import INPUTS, OBSERVED, followed_by
 from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.output_keys import instants_of
-from tribodyn.mechanisms.results import EVEN
+from tribodyn.mechanisms.playback import EVEN
 
 
 def film_columns(couplings: Mapping[str, FloatArray], model: Model) -> dict[str, FloatArray]:

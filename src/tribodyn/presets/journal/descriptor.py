@@ -5,7 +5,7 @@ from typing import Final
 from tribodyn.cases.load import BuiltIn
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.system import KEY_RESULTS, VARIABLES
+from tribodyn.presets.journal.results import KEY_RESULTS, VARIABLES
 
 MECHANISM: Final = MechanismDescriptor(
     folder="tribodyn.presets.journal",

@@ -10,7 +10,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Following
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.results import distinct
+from tribodyn.mechanisms.playback import distinct
 from tribodyn.mechanisms.shaft_loads import crossings
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Lengths, TableDrive, Vsv

@@ -5,7 +5,7 @@ from typing import Final
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.bushing import grid_of
-from tribodyn.mechanisms.results import AFTER_REVERSAL, EVEN, MOST_CLOSE
+from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, MOST_CLOSE
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
