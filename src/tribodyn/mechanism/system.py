@@ -37,14 +37,7 @@ from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.followed import (
-    coordinate,
-    followed,
-    power_columns,
-    spring_columns,
-    transmitted,
-    with_motors,
-)
+from tribodyn.mechanism.results.followed import coordinate, followed, power_columns, transmitted, with_motors
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
@@ -67,6 +60,7 @@ from tribodyn.mechanism.results.output_columns import (
     output_coordinates,
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
+from tribodyn.mechanism.results.springs import spring_columns
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives
