@@ -6,6 +6,7 @@ One file because groups, building and changed copies are one protocol that calls
 import json
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, ClassVar, NoReturn, Self, TypeVar
 
@@ -129,6 +130,8 @@ class Case(Group):
     _linked: dict[str, Any] = PrivateAttr(default_factory=dict)
     _given: dict[str, Any] = PrivateAttr(default_factory=dict)
     _scans: dict[str, Any] = PrivateAttr(default_factory=dict)
+    _written: dict[str, Value] = PrivateAttr(default_factory=dict)
+    """Values as given, by dotted path, where others stand for some of them."""
 
     @model_validator(mode="wrap")
     @classmethod
@@ -145,6 +148,11 @@ class Case(Group):
     def kind(cls) -> str:
         """Return the name that stands under ``case =`` in a file."""
         return str(cls.model_fields["case"].default)
+
+    @classmethod
+    def expanded(cls, values: dict[str, Value], tables: list[str]) -> tuple[dict[str, Value], list[str]]:
+        """Return the values and tables of a case that some of its tables stand for; by default the same."""
+        return values, tables
 
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -204,7 +212,7 @@ class Case(Group):
     def at(self, path: str) -> Value | None:
         """Return the value at a dotted path, such as ``joint.clearance``."""
         found: Value | None = value_at(self, path)
-        return found
+        return self._written.get(path) if found is None else found
 
     def given(self, path: str) -> object:
         """Return the given text of a key; None where none was given."""
@@ -311,11 +319,20 @@ def build(
     empty = {path: entry for path, entry in given.items() if is_empty_table(path, entry, keys)}
     there = [path for path in given if path not in declared and (path in keys or path in empty)]
     named = [path.rpartition(".")[0] if path in keys else path for path in there]
-    case = _validated(model, values, named, Asked(keys, entries, source), faults)
+    asked = Asked(keys, entries, source)
+    try:
+        written, (values, named) = values, model.expanded(values, named)
+    except InputError as error:
+        raise together([*faults.found, *(located(fault, asked) for fault in error.faults)]) from None
+    if values is not written:
+        asked = replace(asked, keys=keys_at(model, [*values, *named]))
+    case = _validated(model, values, named, asked, faults)
     in_order = {path: entry for path, entry in given.items() if path in empty or path in entries}
     case._given.update(in_order | entries)
     case._units.update(scope.units)
     case._linked.update(linked)
+    if values is not written:
+        case._written.update(written)
     case._scans.update(scanned)
     return case
 

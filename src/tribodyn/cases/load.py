@@ -11,6 +11,7 @@ from typing import Any, Final
 from tribodyn.cases.case import Case, beside, build
 from tribodyn.cases.entry import Entry
 from tribodyn.cases.keys import shown
+from tribodyn.cases.tables import is_name
 from tribodyn.core import files
 from tribodyn.core.errors import MOST_FAULTS, InputError, together
 from tribodyn.core.files import read_regular, text_of
@@ -392,4 +393,4 @@ def flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, obj
 
 def _key_text(name: str) -> str:
     """Return a key as it stands in a file; quoted unless plain, so that dots inside do not mislead."""
-    return name if re.fullmatch("[A-Za-z0-9_-]+", name) else shown(name)
+    return name if is_name(name) else shown(name)

@@ -226,7 +226,7 @@ def _problem(found: ErrorDetails, asked: Asked) -> Iterator[InputError]:
     path = ".".join(str(part) for part in found["loc"])
     if found["type"] == CROSS_CHECK:
         context = found["ctx"]
-        table = f"{path}." if context["here"] else ""
+        table = f"{path}." if context["here"] and path else ""
         for fault in context["faults"]:
             yield located(InputError(fault.reason, key=f"{table}{fault.key or ''}"), asked)
     elif found["type"] == "missing":

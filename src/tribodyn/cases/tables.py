@@ -24,7 +24,14 @@ FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns
 LONGEST_NAME: Final = 40
 ALLOWED_NAME: Final = f"a name of letters without accents, digits, - and _, at most {LONGEST_NAME} of them"
 _QUOTED: Final = re.compile(r'"((?:[^"\\]|\\.)*)"')
-_NAME: Final = re.compile(rf"[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}")
+_PLAIN: Final = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?(:\d+)?")
+"""Names that users choose, with the numbers of a copy of a pattern and of a node of an elastic body."""
+_NAME: Final = re.compile(rf"(?=[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}(\[|:|$)){_PLAIN.pattern}")
+
+
+def is_name(text: str) -> bool:
+    """Tell whether a text may be a name, however long, that needs no quotes in dotted paths."""
+    return _PLAIN.fullmatch(text) is not None
 
 
 class Tables(dict[str, Any]):
@@ -65,11 +72,11 @@ def expanded(declared: Mapping[str, Key], paths: Iterable[str]) -> dict[str, Key
 
 
 def keys_in(case: BaseModel) -> dict[str, Key]:
-    """Return every key of a case, by dotted path, with those of the tables that it names."""
+    """Return every key of a case, by dotted path, with those of the tables that it names or was given."""
     declared = keys_of(type(case))
     if not any(ANY_NAME in path for path in declared):
         return declared
-    there = keys_at(type(case), _paths(case.model_dump()))
+    there = keys_at(type(case), [*_paths(case.model_dump()), *(getattr(case, "_written", None) or {})])
     return keys_with_units(there, getattr(case, "_units", None) or {})
 
 
@@ -85,7 +92,7 @@ def _keys_at(model: type[BaseModel], paths: tuple[str, ...]) -> Mapping[str, Key
 
 
 def value_at(case: BaseModel, path: str) -> Any:
-    """Return the value of a case at a dotted path; None inside a table that is not there."""
+    """Return the value of a case at a dotted path; None in a table that is not there."""
     value: Any = case
     for name in path.split("."):
         if value is None:
@@ -93,7 +100,7 @@ def value_at(case: BaseModel, path: str) -> Any:
         if isinstance(value, tuple):
             value = value[AXES.index(name)]
         else:
-            value = value[name] if isinstance(value, Mapping) else getattr(value, name)
+            value = value.get(name) if isinstance(value, Mapping) else getattr(value, name)
     return value
 
 

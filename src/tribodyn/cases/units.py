@@ -38,6 +38,7 @@ _DIMENSIONS: Final = {
     "m": "length",
     "m^2": "area",
     "m^3": "volume",
+    "m^4": "second moment of area",
     "rad": "angle",
     "s": "time",
     "kg": "mass",

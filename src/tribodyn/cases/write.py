@@ -48,7 +48,7 @@ def to_toml(
     for table, inside in (tables if comments else _shortened(tables)).items():
         if not inside and _is_always_there(case, table):
             continue
-        lines += ["", f"[{table}]", *inside] if table else inside
+        lines += ["", f"[{_quoted(table)}]", *inside] if table else inside
     if comments:
         declared = keys_of(type(case))
         lines += _not_there(declared, {as_declared(table, declared) for table in tables})
@@ -80,6 +80,11 @@ def _shortened(tables: Mapping[str, list[str]]) -> dict[str, list[str]]:
         else:
             short[table] = lines
     return short
+
+
+def _quoted(table: str) -> str:
+    """Return the path of a table as a file has it: names with numbers in quotes."""
+    return ".".join(f'"{name}"' if {"[", ":"} & {*name} else name for name in table.split("."))
 
 
 def _is_there(case: BaseModel, table: str) -> bool:

@@ -154,12 +154,32 @@ def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
     return points, weights
 
 
-def _legendre(n: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the Legendre polynomial of degree ``n`` and its slope at ``x``, |x| < 1."""
+def _two(n: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the Legendre polynomials of degrees ``n - 1`` and ``n`` at ``x``."""
     before, value = np.zeros_like(x), np.ones_like(x)
     for k in range(n):
         before, value = value, ((2 * k + 1) * x * value - k * before) / (k + 1)
+    return before, value
+
+
+def _legendre(n: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the Legendre polynomial of degree ``n`` and its slope at ``x``, |x| < 1."""
+    before, value = _two(n, x)
     return value, n * (x * value - before) / (x * x - 1.0)
+
+
+def gauss_lobatto(n: int) -> tuple[FloatArray, FloatArray]:
+    """Return ``n`` points on [0, 1], both ends among them, and their weights, shape (n,) each.
+
+    Between the ends they are where the Legendre polynomial of degree n − 1 has no slope: Abramowitz and
+    Stegun, Handbook of Mathematical Functions, 25.4.32.
+    """
+    degree = n - 1
+    points = portable.cos(math.pi * np.arange(degree, -1, -1) / degree)
+    for _ in range(4 * _ITERATIONS):
+        before, value = _two(degree, points)
+        points = points - (points * value - before) / (n * value)
+    return 0.5 * (points + 1.0), 1.0 / (degree * n * _two(degree, points)[1] ** 2)
 
 
 def gauss_legendre_between(n: int, first: float, last: float) -> tuple[FloatArray, FloatArray]:

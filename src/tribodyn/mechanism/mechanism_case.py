@@ -28,6 +28,7 @@ from tribodyn.mechanism.elements.controller import Controller, check_functions
 from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.model import solids
+from tribodyn.mechanism.model.beam_nodes import of_rigid, with_nodes
 from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.model.drives_and_loads import (
     COORDINATE_OF,
@@ -48,6 +49,11 @@ _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
 _OF_WEAR: Final = ("wear.specific_wear_rate", "wear.partner_wear_rate", "wear.final_roughness")
 _CLEARANCE: Final = re.compile(r"(joints\.[^.]+\.clearance\.).+")
+
+
+def _tables_of(values: Iterable[str]) -> set[str]:
+    """Return the paths of all tables that hold some values."""
+    return {path[:place] for path in values for place, sign in enumerate(path) if sign == "."}
 
 
 class _Parts(RoughCase):
@@ -102,9 +108,18 @@ class MechanismCase(_WithElements):
     _functions: Mapping[str, OwnFunction] = PrivateAttr(default_factory=dict)
 
     @classmethod
+    def expanded(cls, values: dict[str, Value], tables: list[str]) -> tuple[dict[str, Value], list[str]]:
+        """Return values with nodes in the place of elastic bodies, and the tables that are there."""
+        found = with_nodes(values)
+        if found is values:
+            return values, tables
+        gone = _tables_of(values) - _tables_of(found)
+        return found, [table for table in tables if table not in gone]
+
+    @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from shapes, materials and contact laws, also of named pairs."""
-        found = super().resolve(given) | solids.of_bodies(given)
+        found = super().resolve(given) | solids.of_bodies(given) | of_rigid(given)
         for name in {path.split(".")[1] for path in given if path.startswith(f"{_PAIRS}.")}:
             prefix = f"{_PAIRS}.{name}."
             own = {

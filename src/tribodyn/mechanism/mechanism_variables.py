@@ -150,6 +150,9 @@ VARIABLES: Final[dict[str, Variable]] = {
     "joint": Variable("", "name of the joint", ("joint",), named=True, names="joints"),
     "element": Variable("", "name of the element", ("element",), named=True, names="elements"),
     **OF_ELEMENTS,
+    "beam_stress": Variable(
+        "Pa", "largest normal stress at the ends of a beam, of tension and bending", (*TIME, "joint")
+    ),
     "spring": Variable("", "name of the spring", ("spring",), named=True, names="springs"),
     "spring_force": Variable("N", "force of a spring and its damper; it pushes its ends apart", _SPRING),
     "spring_length": Variable("m", "distance of the ends of a spring", _SPRING),

@@ -37,7 +37,14 @@ from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.followed import coordinate, followed, power_columns, transmitted, with_motors
+from tribodyn.mechanism.results.followed import (
+    coordinate,
+    followed,
+    power_columns,
+    stresses,
+    transmitted,
+    with_motors,
+)
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
@@ -304,6 +311,7 @@ class MechanismSystem:
             columns={
                 **columns(self.model, found),
                 **transmitted(self.model, found.couplings),
+                **stresses(self.model, found.couplings),
                 **power_columns(self.model, found.couplings),
                 **temperature_effects.radial_clearances(self.model, run.solution.t),
                 **(spring_columns(self.case, observed_motion(found)) if self.case.springs else {}),

@@ -52,6 +52,7 @@ LOAD_BODY: Final = 4
 LOAD_MOTION: Final = 5
 LOAD_LINE: Final = 6
 CONTACT: Final = 7
+BEAM: Final = 8
 """Kinds of forces, see ``kernels/mechanism/forces.py``."""
 
 TIME: Final = 0
@@ -212,9 +213,10 @@ row_kind, row_axis, row_other, row_signal
 force
     Kind of force.
 stiffness, damping
-    Along x, y, z of the socket and about x, y, z; of a spring the first.
+    Along x, y, z of the socket and about x, y, z; of a spring the first; of a beam see ``beam.py``.
 length, slip_velocity
-    Of a spring without force, or from which a distance counts [m]; of a load against the motion [m/s].
+    Of a spring or beam without force, or from which a distance counts [m]; of a load against the motion
+    [m/s].
 first_term, last_term
     Terms of a load: the first, and the one after the last.
 direction, opposes, own_speed

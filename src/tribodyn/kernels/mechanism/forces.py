@@ -18,7 +18,9 @@ from tribodyn.kernels.joints.film import fill_report, film_wrench
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.mechanism.beam import beam
 from tribodyn.kernels.mechanism.data import (
+    BEAM,
     CONTACT,
     DAMPING,
     EXPANSION,
@@ -81,6 +83,8 @@ def force(
         _spring(coupling, now)
     elif kind in (LOAD_GROUND, LOAD_BODY, LOAD_MOTION, LOAD_LINE):
         _load(coupling, now, memory.now.couplings, data, t, within)
+    elif kind == BEAM:
+        beam(coupling, now, mode)
     elif kind == CONTACT:
         _open(coupling, now.pose, data.signals, t, within)
         _contact(coupling.contact, now, data.contact, memory.contact, mode)

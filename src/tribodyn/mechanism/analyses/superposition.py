@@ -7,6 +7,8 @@ clearance c against the reaction, turned by the angle of friction,
 
 s being the sense of rotation of the shaft. A cylinder of length L touches at both ends, each of which carries
 F/2 ∓ z × M / L of force F and moment M: ends on one side displace the shaft, ends on opposite sides tilt it.
+The pieces of elastic bodies yield to their reactions by their flexibility.
+
 By virtual work an output moves with the displacement (e, φ) of joint k by the reaction in k to a unit load
 along the output; with the constraints G of the ideal mechanism, and those of the joint N over (e, φ), by
 
@@ -29,8 +31,8 @@ from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_global_axes, motion_of
 from tribodyn.mechanism.assembly.output_values import Output
 
-CAUSES: Final = ("clearance", "tilt", "friction")
-"""Parts of the error of a joint."""
+CAUSES: Final = ("clearance", "tilt", "friction", "bending")
+"""Parts of the error of a joint; the last one is that of the pieces of elastic bodies."""
 _NOTHING: Final = 1.0e-9
 """Force over the largest one that counts as zero."""
 

@@ -28,7 +28,7 @@ from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import Observed
 
 _FREE: Final = 1.0e-6
-"""Eigenvalue over the largest one that is zero."""
+"""Eigenvalue over the largest undamped frequency that is zero."""
 _UNDAMPED: Final = 1.0e-9
 """Damping ratio that is zero."""
 _REAL: Final = 1.0e-9
@@ -104,7 +104,7 @@ class _Resting(Equilibria):
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
         super().__init__(assembly, path)
         self._loads.hold(path.times)
-        self._real = Linearised(assembly, path.times) if assembly.model.clearances else None
+        self._real = Linearised(assembly, path.times) if assembly.model.yields else None
 
     def __call__(self, number: int) -> FloatArray:
         """Return the state at a time, see :class:`~.positions.States`."""
@@ -137,7 +137,7 @@ class Modes:
 
 def modes_of(linear: LinearEquations) -> Modes:
     """Return the modes of linear equations; motions that nothing holds or damps have the eigenvalue zero."""
-    from scipy.linalg import eig
+    from scipy.linalg import eig, eigvals
 
     f = linear.rest.size
     matrix = np.block([[np.zeros((f, f)), np.eye(f)], [-linear.stiffness, -linear.damping]])
@@ -145,7 +145,8 @@ def modes_of(linear: LinearEquations) -> Modes:
     values: NDArray[np.complex128] = found[0]
     vectors = found[1][:f]
     size = np.abs(values)
-    zero = size <= _FREE * np.max(size, initial=0.0)
+    # Damping moves eigenvalues apart and leaves their products: the largest frequency is that without it.
+    zero = size <= _FREE * np.sqrt(np.max(np.abs(eigvals(linear.stiffness)), initial=0.0))
     n_free = -(-int(np.sum(zero)) // 2)
     values.imag[np.abs(values.imag) <= _REAL * size] = 0.0
     kept = np.flatnonzero(~zero & (values.imag >= 0.0))

@@ -116,8 +116,11 @@ class Assembly:
             why = " (fully driven)" if self.model.case.drives else " (fully held)"
         elif ends := self.model.held_by_one:
             why = f": {', '.join(f'{body} is held by {joint} only' for body, joint in ends.items())}"
+        what = " and ".join(
+            ["clearances"] * bool(self.model.clearances) + ["beams"] * bool(self.model.elastic)
+        )
         more = self.freedoms - ideal
-        return f"{ideal} with ideal joints{why}" + (f"; clearances free {more} more" if more else "")
+        return f"{ideal} with ideal joints{why}" + (f"; {what} free {more} more" if more else "")
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -149,7 +152,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     findings = list(model.loose())
     closed, open_joints, findings_if_ideal = _closed(model)
     findings += open_joints
-    as_drawn = not (model.clearances or model.held)
+    as_drawn = not (model.yields or model.held)
     system = System(model, worn, data=closed.data if as_drawn else None)
     system.take_positions(closed)
     if findings_if_ideal:
@@ -164,8 +167,8 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     contradictions = _contradictions(system, dependent)
     findings += contradictions
     ideal_rank, ideal = rank, None
-    ideal_rows: int | None = None if model.clearances else rank
-    if model.clearances:
+    ideal_rows: int | None = None if model.yields else rank
+    if model.yields:
         ideal = Misfit(model, System(model.counterpart))
         ideal.system.take_positions(system)
     if ideal and model.has_loops and not (contradictions or open_joints or findings_if_ideal):

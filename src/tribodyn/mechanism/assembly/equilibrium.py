@@ -20,7 +20,16 @@ from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.stopping import ask
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, move, place
-from tribodyn.kernels.mechanism.data import CONTACT, LOAD_LINE, LOAD_MOTION, N_STATES, NONE, NOTHING, VELOCITY
+from tribodyn.kernels.mechanism.data import (
+    BEAM,
+    CONTACT,
+    LOAD_LINE,
+    LOAD_MOTION,
+    N_STATES,
+    NONE,
+    NOTHING,
+    VELOCITY,
+)
 from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.closing import System
@@ -93,6 +102,9 @@ class JointLoads:
         self.roots = np.zeros((couplings.size, 6, 6))
         for contact in self.contacts:
             self.roots[contact.coupling] = contact.root
+        self.bends = bool(assembly.model.elastic)
+        for number in np.flatnonzero(couplings.force == BEAM):
+            self.roots[number] = np.diag(np.repeat([1.0, couplings.length[number]], 3))
         self.others = self.acting[couplings.force[self.acting] != CONTACT]
         self.by_slip = np.flatnonzero(np.isin(couplings.force, (CONTACT, LOAD_MOTION, LOAD_LINE)))
         self.laws = np.flatnonzero(couplings.law)
@@ -358,10 +370,11 @@ class JointLoads:
         return over_roughness, over_gap
 
     def turned(self, step: FloatArray) -> float:
-        """Return the length of a step (m,) along freedoms, turns [rad] and lengths over the size."""
-        if self.carried == 0:
+        """Return the length of a step (m,) along freedoms and of beams, turns [rad], ways over the size."""
+        if self.carried == 0 and not self.bends:
             return 0.0
-        moved = dense.product(self.motions[:, -self.carried :], step[-self.carried :])
+        first = 0 if self.bends else step.size - self.carried
+        moved = dense.product(self.motions[:, first:], step[first:])
         return float(np.max(np.abs(moved) / self.units))
 
     def move(self, step: FloatArray) -> None:

@@ -70,7 +70,7 @@ class Model:
     clearances
         Of the joints that are not ideal, by their names.
     held
-        Kinds of the ideal joints that take the place of joints with clearance, by their names.
+        Kinds of the ideal joints that take the place of joints that yield, by their names.
     """
 
     case: MechanismCase
@@ -106,6 +106,17 @@ class Model:
         return self.held.get(joint, self.case.joints[joint].type)
 
     @property
+    def elastic(self) -> dict[str, str]:
+        """Names of the joints that yield by themselves, with the types of the ideal ones in their place."""
+        kinds = {name: joint.kind.HELD for name, joint in self.case.joints.items()}
+        return {name: held for name, held in kinds.items() if held and name not in self.held}
+
+    @property
+    def yields(self) -> bool:
+        """Whether any joint is not ideal: it has clearance, or is elastic."""
+        return bool(self.clearances or self.elastic)
+
+    @property
     def real(self) -> list[int]:
         """Numbers of the joints with clearance."""
         return [number for number, name in enumerate(self.joints) if name in self.clearances]
@@ -136,7 +147,7 @@ class Model:
     @property
     def as_drawn(self) -> Model:
         """The mechanism in which every joint is the ideal one of its type."""
-        return Model(self.case)
+        return Model(self.case, held={**self.elastic, **self.held})
 
     @property
     def counterpart(self) -> Model:
@@ -157,6 +168,7 @@ class Model:
         """Return the mechanism with the ideal joints that hold the same in the place of some."""
         real = {name: clearance for name, clearance in self.clearances.items() if name not in names}
         held = {name: self.case.joints[name].ideal for name in self.clearances if name in names}
+        held |= {name: kind for name, kind in self.elastic.items() if name in names}
         return replace(self, clearances=real, held={**self.held, **held})
 
     @property
@@ -182,7 +194,7 @@ class Model:
 
         for name, joint in self.case.joints.items():
             first, second = (root(self.number(body)) for body in joint.between)
-            if JOINTS[self.kind(name)].ROWS:
+            if JOINTS[self.elastic.get(name, self.kind(name))].ROWS:
                 if first == second:
                     return True
                 group[first + 1] = second

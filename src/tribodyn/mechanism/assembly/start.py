@@ -30,7 +30,7 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     Stopped
         If the caller wanted to stop before the end of the search.
     """
-    if not assembly.model.without_films.clearances:
+    if not assembly.model.without_films.yields:
         return assembly.state
     ideal = System(assembly.model.counterpart, data=assembly.ideal_data)
     ideal.adopt(assembly.state)

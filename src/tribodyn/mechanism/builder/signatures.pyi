@@ -65,6 +65,8 @@ class Signatures:
         inertia: Vector | None = ...,
         first_axis: Vector | None = ...,
         second_axis: Vector | None = ...,
+        elastic: str | None = ...,
+        beam: Table | None = ...,
     ) -> Self: ...
     def fixed(
         self,
@@ -196,6 +198,25 @@ class Signatures:
         angular_stiffness: Vector | None = ...,
         angular_damping: Vector | None = ...,
     ) -> Self: ...
+    def beam(
+        self,
+        name: str,
+        first: str,
+        second: str,
+        *,
+        point: Vector,
+        axis: Vector,
+        beam_length: str,
+        axial_rigidity: str,
+        torsional_rigidity: str,
+        bending_rigidity: Vector,
+        other_point: Vector | None = ...,
+        second_axis: Vector | None = ...,
+        shear_rigidity: Vector | None = ...,
+        damping_time: str | None = ...,
+        section_area: str | None = ...,
+        section_moduli: Vector | None = ...,
+    ) -> Self: ...
     def joint(
         self,
         name: str,
@@ -213,6 +234,14 @@ class Signatures:
         damping: Vector | None = ...,
         angular_stiffness: Vector | None = ...,
         angular_damping: Vector | None = ...,
+        beam_length: str | None = ...,
+        axial_rigidity: str | None = ...,
+        torsional_rigidity: str | None = ...,
+        bending_rigidity: Vector | None = ...,
+        shear_rigidity: Vector | None = ...,
+        damping_time: str | None = ...,
+        section_area: str | None = ...,
+        section_moduli: Vector | None = ...,
         clearance: Table | None = ...,
         film: Table | None = ...,
     ) -> Self: ...

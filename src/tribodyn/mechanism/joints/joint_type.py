@@ -45,6 +45,8 @@ class JointType:
         Whether a clearance may have end faces, which hold the pin along the axis.
     CLEARANCE
         What a clearance makes of it, for the manual.
+    HELD
+        Type of the ideal joint in the place of one that yields by itself; empty for others.
     KEYS
         Keys of its own, beside those of all joints; other types refuse them.
     NEEDED
@@ -60,6 +62,7 @@ class JointType:
     SHAPE: ClassVar[str] = ""
     FACES: ClassVar[bool] = False
     CLEARANCE: ClassVar[str] = ""
+    HELD: ClassVar[str] = ""
     KEYS: ClassVar[type[NamedGroup]] = NamedGroup
     NEEDED: ClassVar[dict[str, object]] = {}
 

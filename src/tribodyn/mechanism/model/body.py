@@ -8,6 +8,7 @@ import numpy as np
 from tribodyn.cases.case import NamedGroup, demand, dot, unit
 from tribodyn.cases.fields import Numbers, Vector, choice, file, number, quantity, series, vector
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.model.beam import BeamBodyKeys
 from tribodyn.mechanism.model.parts import POINT
 from tribodyn.mechanism.model.solids import NEEDED, SIZES, mesh_solid
 
@@ -16,7 +17,7 @@ _ROUNDING: Final = 1e-6
 
 
 class BodyKeys(NamedGroup):
-    """A rigid body; of a simple solid mass, mass centre and inertia follow from its sizes."""
+    """A body; of a simple solid mass, mass centre and inertia follow from its sizes."""
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (
         ("mass", "density"),
@@ -69,6 +70,9 @@ class BodyKeys(NamedGroup):
     second_axis: Vector = vector(
         "0, 1, 0", "direction of the second principal axis", "global axes", example="[0, 1, 0]"
     )
+
+    elastic: Literal["beam"] | None = choice(None, "what it bends as; rigid without it", "", example="beam")
+    beam: BeamBodyKeys | None = None
 
     def model_post_init(self, context: object, /) -> None:
         """Check that a body of this inertia can exist."""

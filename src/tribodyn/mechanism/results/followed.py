@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -97,6 +97,24 @@ def _along(leg: Leg, couplings: Mapping[str, FloatArray], number: int) -> FloatA
     way = couplings["displacement" if leg.measure == "distance" else "relative_velocity"][:, number]
     size = np.linalg.norm(way, axis=-1)
     return np.asarray(np.sum(force * way, axis=-1) / np.where(size > 0.0, size, 1.0))
+
+
+def stresses(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Return the largest normal stress at the ends of beams [Pa], shape (n_t, n_joints); nothing without any.
+
+    It is that of tension and bending at corners of the section, or around a round one; NaN of other joints.
+    """
+    found = np.full((len(couplings["reaction_force"]), len(model.joints)), np.nan)
+    keys: Any
+    for k, keys in enumerate(model.case.joints.values()):
+        if keys.section_moduli is None:
+            continue
+        force, moment = couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k, :2]
+        other = moment + keys.beam_length * np.stack([-force[:, 1], force[:, 0]], axis=1)
+        ends = np.abs(np.stack([moment, other]))[..., ::-1] / keys.section_moduli
+        bending = np.linalg.norm(ends, axis=2) if len(keys.section_moduli) == 1 else ends.sum(axis=2)
+        found[:, k] = bending.max(axis=0) + np.abs(force[:, 2]) / keys.section_area
+    return {"beam_stress": found} if np.isfinite(found).any() else {}
 
 
 INPUTS: Final = ("relative_rate", "relative_velocity")

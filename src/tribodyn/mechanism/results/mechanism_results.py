@@ -87,6 +87,15 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         lambda d: reading.column(d, "pressure_max"),
         scale=1e-6,
     ),
+    **pair(
+        ("stress_sustained_MPa", "stress_max_MPa"),
+        "Stress in elastic bodies",
+        "MPa",
+        "Load",
+        "Largest normal stress at the ends of all pieces, of tension and bending, without notches",
+        lambda d: reading.column(d, "beam_stress"),
+        scale=1e-6,
+    ),
     **{name: made("") for name, made in OUTSIDE.items()},
     "flash_temperature_K": KeyResult(
         "Flash temperature, peak",

@@ -9,12 +9,14 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Place
 from tribodyn.joints.shapes import Ball, Cylinder, Sphere
+from tribodyn.kernels import dense
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
 from tribodyn.mechanism.analyses.kinematics import velocity_ratios
 from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, superposed
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.joints.beam import flexibility
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import GIVEN
 from tribodyn.mechanism.results.followed import coordinate
@@ -50,6 +52,11 @@ def kinematic_columns(
             spin = couplings["relative_rate"][:, k, 2]
             reaction = JointReaction(clearance, keys.friction_coefficient, force, moment, spin)
             real[k] = reaction.displacements()
+    for name in [name for name, joint in case.joints.items() if joint.kind.HELD]:
+        k = assembly.model.joints.index(name)
+        reactions = np.hstack([couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k]])
+        real[k] = np.zeros((times.size, len(CAUSES), 6))
+        real[k][:, CAUSES.index("bending")] = -dense.product(reactions, flexibility(case.joints[name]))
     if real:
         estimate[:, :, list(real)] = superposed(IdealMechanism(assembly), outputs, times, real)
     estimate[:, ~np.array([output.has_displacement for output in outputs])] = np.nan
