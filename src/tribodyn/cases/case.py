@@ -45,7 +45,7 @@ from tribodyn.cases.tables import (
     with_components,
 )
 from tribodyn.cases.write import to_html, to_toml
-from tribodyn.core.errors import Faults, InputError, together
+from tribodyn.core.errors import Faults, InputError, below, together
 from tribodyn.core.quoting import meant
 
 _T = TypeVar("_T")
@@ -105,6 +105,23 @@ class NamedGroup(Group):
     """A table that a user names; keys in its :func:`demand` begin at the table itself."""
 
     KEYS_BEGIN_HERE: ClassVar[bool] = True
+
+
+AnyGroup = TypeVar("AnyGroup", bound=NamedGroup)
+
+
+def group_at(kind: type[AnyGroup], table: str, values: Mapping[str, Value]) -> AnyGroup:
+    """Return the checked table at a dotted path from the values of a case by theirs."""
+    own = {
+        path.removeprefix(f"{table}."): value
+        for path, value in values.items()
+        if path.startswith(f"{table}.")
+    }
+    with below(table):
+        try:
+            return kind.model_validate(nested(own, ()))
+        except ValidationError as error:
+            raise together(problems(error, Asked(keys_of(kind), {}, ""))) from None
 
 
 class ParameterKeys(NamedGroup):

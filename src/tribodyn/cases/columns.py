@@ -35,6 +35,8 @@ TABLE: Final = "table"
 """Name of a key that names a file; beside it stand those of :data:`KNOTS` and ``values``."""
 MAP: Final = "map"
 """Name of a key that names the file of a map."""
+CSV: Final = "csv"
+"""Name of a key that names a file of which one column is needed."""
 COLUMN: Final = "column"
 VALUES: Final = "values"
 TIMES: Final = "times"
@@ -63,19 +65,35 @@ def with_tables_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> d
     read = dict(entries)
     for path, entry in entries.items():
         before, _, name = path.rpartition(".")
-        if name not in (TABLE, MAP) or f"{before}.{VALUES}" not in keys:
+        if name not in (TABLE, MAP, CSV) or f"{before}.{VALUES}" not in keys:
             continue
         of_column = read.pop(f"{before}.{COLUMN}", None)
         column = None if of_column is None else str(read_entry(keys[f"{before}.{COLUMN}"], of_column))
         file, unit = str(read_entry(keys[path], read.pop(path))), keys[f"{before}.{VALUES}"].unit
         try:
             text = _text((entry.folder or Path()) / file)
+            if name == CSV:
+                read[f"{before}.{VALUES}"] = replace(entry, value=_cells(text, column))
+                continue
             found = _numbers(text, column, unit) if name == TABLE else _map(text, unit)
             _expected(found, [knots for knots in KNOTS if f"{before}.{knots}" in keys])
         except (TableProblem, UnitProblem, ValueProblem) as problem:
             raise InputError(f"given {shown(file)}: {problem}", key=path, source=entry.source) from None
         read |= {f"{before}.{key}": replace(entry, value=value) for key, value in found.items()}
     return read
+
+
+def _cells(text: str, column: str | None) -> list[str]:
+    """Return the cells of one column, each with the unit of the header."""
+    header, *lines = [line for line in text.splitlines() if line.strip() and not is_comment(line)] or [""]
+    separator = separator_of(header)
+    columns = [named(cell) or ("", None) for cell in header.split(separator)]
+    known = [name for name, _ in columns]
+    place = 0 if column is None else known.index(column) if column in known else -1
+    if place < 0:
+        raise TableProblem(f"it has no column {shown(column)}; there are {', '.join(known)}")
+    rows = [_row(line, separator, (place,), number)[0] for number, line in enumerate(lines, 2)]
+    return [f"{cell} {columns[place][1] or ''}".strip() for cell in rows]
 
 
 def _text(file: Path) -> str:

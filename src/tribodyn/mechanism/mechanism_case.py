@@ -20,6 +20,7 @@ from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.loads import Doors, OwnFunction
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_surfaces
+from tribodyn.cases.tables import keys_at
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
 from tribodyn.joints.rows import FEWEST
@@ -40,6 +41,7 @@ from tribodyn.mechanism.model.drives_and_loads import (
 )
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys, friction_of
+from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, with_copies
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
 from tribodyn.mechanisms.mechanism_protocol import plain
@@ -75,6 +77,8 @@ class _Parts(RoughCase):
     loads: Mapping[str, LoadKeys] = tables("what acts on them")
     springs: Mapping[str, SpringKeys] = tables("springs between them")
     outputs: Mapping[str, OutputKeys] = tables("what is compared with the motion of ideal joints")
+    pattern: Mapping[str, PatternKeys] = tables("bodies that stand several times")
+    scatter: Mapping[str, ScatterKeys] = tables("values that differ from copy to copy of a pattern")
     pairs: Mapping[str, PairKeys] = tables("surfaces of joints that name them")
 
 
@@ -109,7 +113,9 @@ class MechanismCase(_WithElements):
 
     @classmethod
     def expanded(cls, values: dict[str, Value], tables: list[str]) -> tuple[dict[str, Value], list[str]]:
-        """Return values with nodes in the place of elastic bodies, and the tables that are there."""
+        """Return values with copies of patterns, nodes for elastic bodies, and the tables that are there."""
+        if any(path.startswith(f"{PATTERN}.") for path in values):
+            values, tables = with_copies(values, tables, keys_at(cls, [*values, *tables]))
         found = with_nodes(values)
         if found is values:
             return values, tables

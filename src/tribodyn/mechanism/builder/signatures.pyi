@@ -25,6 +25,8 @@ class Signatures:
         loads: Table | None = ...,
         springs: Table | None = ...,
         outputs: Table | None = ...,
+        pattern: Table | None = ...,
+        scatter: Table | None = ...,
         pairs: Table | None = ...,
         gears: Table | None = ...,
         racks: Table | None = ...,

@@ -13,13 +13,10 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from pydantic import ValidationError
 
-from tribodyn.cases.case import demand
-from tribodyn.cases.keys import Value, keys_of
-from tribodyn.cases.messages import Asked, problems
+from tribodyn.cases.case import demand, group_at
+from tribodyn.cases.keys import Value
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import below, together
 from tribodyn.core.splines import gauss_lobatto
 from tribodyn.kernels import dense
 from tribodyn.mechanism.frames import frame
@@ -87,7 +84,7 @@ def of_rigid(values: Mapping[str, Value]) -> dict[str, Value]:
     found: dict[str, Value] = {}
     beams = (path.split(".")[1] for path in values if path.startswith("bodies.") and ".beam." in path)
     for name in dict.fromkeys(beams):
-        nodes, _ = _divided(_keys(values, name), ())
+        nodes, _ = _divided(group_at(BeamBodyKeys, f"bodies.{name}.beam", values), ())
         mass, centre = _middle(nodes)
         inertia = np.zeros((3, 3))
         for node in nodes:
@@ -95,17 +92,6 @@ def of_rigid(values: Mapping[str, Value]) -> dict[str, Value]:
             inertia += node.inertia + node.mass * (np.sum(arm * arm) * np.eye(3) - np.outer(arm, arm))
         found |= {f"bodies.{name}.{key}": value for key, value in _body(mass, centre, inertia).items()}
     return found
-
-
-def _keys(values: Mapping[str, Value], name: str) -> BeamBodyKeys:
-    """Return the keys of the beam of a body."""
-    prefix = f"bodies.{name}.beam."
-    own = {path.removeprefix(prefix): value for path, value in values.items() if path.startswith(prefix)}
-    with below(prefix[:-1]):
-        try:
-            return BeamBodyKeys.model_validate(own)
-        except ValidationError as error:
-            raise together(problems(error, Asked(keys_of(BeamBodyKeys), {}, ""))) from None
 
 
 def with_nodes(values: dict[str, Value]) -> dict[str, Value]:
@@ -140,7 +126,7 @@ def _with_nodes_of(values: Mapping[str, Value], name: str) -> dict[str, Value]:
         f"{prefix}beam.points",
         "an elastic body needs its table beam, with the points of its line",
     )
-    keys, acting = _keys(values, name), dict(_acting(values, name))
+    keys, acting = group_at(BeamBodyKeys, f"bodies.{name}.beam", values), dict(_acting(values, name))
     cuts = [
         _along(keys.line, point, name, path)
         for (path, _), (path, point) in acting.items()

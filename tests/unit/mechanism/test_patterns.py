@@ -1,0 +1,188 @@
+"""Patterns: copies of bodies with all that names them, values that differ, single copies, refusals."""
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.cases.case import Case, with_entries
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import parse_case
+
+RING: Final = """
+case = "mechanism"
+run.duration = "1 s"
+run.analysis = "static"
+[bodies.ring]
+mass = "1 kg"
+centre = "0, 40, 0 mm"
+inertia = "3e-2, 5e-2, 3e-2 kg m^2"
+[joints.guide]
+type = "cylindrical"
+between = ["ground", "ring"]
+point = "0, 40, 0 mm"
+axis = [0, 1, 0]
+[drives.actuator]
+joint = "guide"
+angle = { value = "0 deg", swing = "-6 deg", angular_frequency = "6.2 rad/s" }
+[pattern.vanes]
+count = 3
+bodies = ["vane"]
+about = { axis = [0, 1, 0] }
+[bodies.vane]
+mass = "0.25 kg"
+centre = "0, 0, 320 mm"
+inertia = "5e-4, 6e-4, 1e-3 kg m^2"
+[joints.pin]
+type = "pin-slot"
+between = ["ring", "vane"]
+point = "24, 40, 400 mm"
+axis = [0.06, 0, 1]
+[joints.trunnion]
+type = "revolute"
+between = ["ground", "vane"]
+point = "0, 0, 390 mm"
+axis = [0, 0, 1]
+[joints.trunnion.clearance]
+radius = "6 mm"
+radial = "20 um"
+length = "20 mm"
+axial = "50 um"
+[loads.air]
+body = "vane"
+frame = "motion"
+direction = [0, 0, 1]
+moment = "0.84 N m"
+[outputs.vane]
+quantity = "angle"
+body = "vane"
+along = [0, 0, 1]
+"""
+RADIAL: Final = "joints.trunnion.clearance.radial"
+
+
+@pytest.fixture(scope="module")
+def ring() -> Case:
+    return parse_case(RING, "test")
+
+
+def radials(case: Case) -> list[float]:
+    """Return the radial clearances of all trunnions [m]."""
+    return [case.at(f"joints.trunnion[{k}].clearance.radial") for k in (1, 2, 3)]
+
+
+def test_what_names_a_repeated_body_is_repeated_and_moved_with_it(ring: Case) -> None:
+    assert list(ring.bodies) == ["ring", "vane[1]", "vane[2]", "vane[3]"]
+    assert [*ring.joints] == ["guide", *(f"{name}[{k}]" for name in ("pin", "trunnion") for k in (1, 2, 3))]
+    assert ring.joints["pin[2]"].between == ("ring", "vane[2]")
+    turned = 0.32 * np.array([np.sin(2.0 * np.pi / 3.0), 0.0, np.cos(2.0 * np.pi / 3.0)])
+    assert ring.bodies["vane[2]"].centre == pytest.approx(turned)
+    assert ring.loads["air[3]"].direction == pytest.approx((np.sin(4.0 * np.pi / 3.0), 0.0, -0.5))
+    assert ring.bodies["vane[1]"].centre == (0.0, 0.0, 0.32)
+
+
+def test_keys_of_one_copy_go_before_those_of_all(ring: Case) -> None:
+    found = ring.replace({RADIAL: "30 um", "joints.trunnion[2].clearance.radial": "40 um"})
+    assert radials(found) == [3e-5, 4e-5, 3e-5]
+    assert ring.at(RADIAL) == 2e-5
+
+
+def test_values_of_copies_come_from_lists_files_and_distributions(ring: Case, tmp_path: Path) -> None:
+    scatter = {"scatter.play.pattern": "vanes", "scatter.play.key": RADIAL}
+    listed = with_entries(ring, scatter | {"scatter.play.values": ["20 um", "25 um", "30 um"]}, "test")
+    assert radials(listed) == [2e-5, 2.5e-5, 3e-5]
+    (tmp_path / "vanes.csv").write_text("radius [mm], radial [um]\n6, 21\n6, 22\n6, 23\n")
+    file = {"scatter.play.csv": str(tmp_path / "vanes.csv"), "scatter.play.column": "radial"}
+    assert radials(with_entries(ring, scatter | file, "test")) == pytest.approx([21e-6, 22e-6, 23e-6])
+    law = {"scatter.play.distribution": "normal", "scatter.play.arguments": ["0 um", "2 um"]}
+    drawn = with_entries(ring, scatter | law | {"scatter.play.added": True}, "test")
+    parts = np.random.default_rng(1).random(3)
+    assert np.argsort(radials(drawn)).tolist() == np.argsort(parts).tolist()
+    assert radials(drawn) == radials(with_entries(ring, scatter | law | {"scatter.play.added": True}, "test"))
+    moved = {
+        "scatter.pin.pattern": "vanes",
+        "scatter.pin.key": "joints.pin.point.y",
+        "scatter.pin.added": True,
+    }
+    found = with_entries(ring, moved | {"scatter.pin.values": ["0 mm", "1 mm", "0 mm"]}, "test")
+    assert found.at("joints.pin[2].point")[1] == pytest.approx(0.041)
+
+
+def test_a_pattern_along_a_line_repeats_springs_and_elements() -> None:
+    text = """
+case = "mechanism"
+run.duration = "1 s"
+[pattern.row]
+count = 4
+bodies = ["mass"]
+step = "0, 20, 0 mm"
+[bodies.mass]
+mass = "1 kg"
+centre = "10, 0, 0 mm"
+inertia = "1e-4, 1e-4, 1e-4 kg m^2"
+[joints.slide]
+type = "prismatic"
+between = ["ground", "mass"]
+point = "10, 0, 0 mm"
+axis = [1, 0, 0]
+[springs.coil]
+between = ["ground", "mass"]
+first_point = "0, 0, 0 mm"
+second_point = "10, 0, 0 mm"
+stiffness = "1 N/mm"
+[nonlinear_springs.pad]
+between = ["ground", "mass"]
+first_point = "0, 0, 0 mm"
+second_point = "10, 0, 0 mm"
+force = { positions = "-1, 1 mm", values = "1, -1 N" }
+"""
+    found = parse_case(text, "test")
+    assert found.springs["coil[4]"].second_point == pytest.approx((0.01, 0.06, 0.0))
+    assert list(found.nonlinear_springs) == ["pad[1]", "pad[2]", "pad[3]", "pad[4]"]
+
+
+def test_a_written_case_reads_back(ring: Case) -> None:
+    assert parse_case(ring.to_toml(), "test") == ring
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"pattern.vanes.about.step": "360 deg"}, "overlaps itself: copies 1 and 2 are at one place"),
+        ({"pattern.vanes.bodies": ["wane"]}, '"wane" is no body.*did you mean'),
+        (
+            {"pattern.more.count": 2, "pattern.more.bodies": ["vane"], "pattern.more.step": "1, 0, 0 mm"},
+            "is no body",
+        ),
+        (
+            {
+                "scatter.a.pattern": "vanes",
+                "scatter.a.key": "joints.guide.point.x",
+                "scatter.a.values": ["1 mm"],
+            },
+            "is no key of what the pattern vanes repeats",
+        ),
+        (
+            {"scatter.a.pattern": "vanes", "scatter.a.key": RADIAL, "scatter.a.values": ["1 um"]},
+            "the pattern has 3 copies, and here are 1 values",
+        ),
+    ],
+)
+def test_a_wrong_pattern_is_refused_in_one_sentence(
+    ring: Case, changes: dict[str, object], words: str
+) -> None:
+    with pytest.raises(InputError, match=words) as caught:
+        with_entries(ring, changes, "test")
+    assert "\n" not in str(caught.value)
+
+
+def test_equal_copies_have_equal_errors_and_a_looser_one_its_own(ring: Case) -> None:
+    error = td.simulate(ring)["output_error"].values
+    assert np.max(np.ptp(error, axis=1)) < 1e-4 * np.max(np.abs(error))
+    loose = td.simulate(ring.replace({"joints.trunnion[2].clearance.radial": "40 um"}))["output_error"].values
+    # The ring is free along its axis and gives way a little.
+    others = np.abs(loose[:, [0, 2]] - error[:, [0, 2]])
+    assert np.max(others) < 2e-2 * np.max(np.abs(error))
+    assert np.max(np.abs(loose[:, 1])) > 1.5 * np.max(np.abs(error[:, 1]))
