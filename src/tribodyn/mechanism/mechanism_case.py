@@ -25,8 +25,10 @@ from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
 from tribodyn.joints.rows import FEWEST
 from tribodyn.mechanism.elements import ELEMENTS
+from tribodyn.mechanism.elements.bristle import RestKeys
 from tribodyn.mechanism.elements.controller import Controller, check_functions
 from tribodyn.mechanism.elements.element import ElementKeys
+from tribodyn.mechanism.elements.joint_friction import JointFriction, regularised
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.model import solids
 from tribodyn.mechanism.model.beam_nodes import of_rigid, with_nodes
@@ -105,6 +107,7 @@ class MechanismCase(_WithElements):
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
 
     wear: MechanismWear = MechanismWear()
+    friction: RestKeys = RestKeys()
     solver: Integration = Integration()
     run: RunKeys = RunKeys()
     results: ResultKeys = ResultKeys()
@@ -358,6 +361,7 @@ class MechanismCase(_WithElements):
         self._check_drives()
         self._check_loads()
         self._check_elements()
+        self._check_friction()
         self._check_run()
         self.results.check()
         self._check_running_in()
@@ -480,6 +484,17 @@ class MechanismCase(_WithElements):
             words = "a wear campaign counts angles anew in each cycle; leave out gears with backlash"
             coupled = any(len(one.legs) > 1 and one.law is not None for one in equations)
             demand(not coupled or self.wear.cycles == 0, path, words)
+
+    def _check_friction(self) -> None:
+        """Check that friction which holds at rest has surfaces and a load."""
+        if not self.friction.rest:
+            return
+        laws = (one.law for _, _, keys in self.elements() for one in keys.equations(self.joints))
+        words = "nothing here has friction that could hold: give [frictions], or the friction of a screw"
+        demand(any(law is not None and law.function is regularised for law in laws), "friction.rest", words)
+        for name, keys in getattr(self, JointFriction.TABLE).items():
+            words = "friction holds by its load: give one above 0, or leave it out for that of the joint"
+            demand(keys.normal_load != 0.0, f"{JointFriction.TABLE}.{name}.normal_load", words)
 
     def _check_run(self) -> None:
         run = self.run

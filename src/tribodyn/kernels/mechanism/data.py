@@ -117,6 +117,8 @@ Law: Final = record_type(
     ("table_slope", "f8"),
     *((name, "f8") for name in ("force", "in_position", "in_rate")),
     *((name, "f8") for name in ("stored", "damping", "friction", "supplied", "touching")),
+    *((name, "f8") for name in ("anchor", "elastic", "stiffness", "next_elastic", "next_stiffness")),
+    ("followed", "f8"),
 )
 """A force law at one instant.
 
@@ -138,6 +140,11 @@ stored, damping, friction, supplied
     Stored energy [J]; powers that damping and friction turn into heat, and power of a drive [W].
 touching
     1 where a contact of one side is closed.
+anchor, elastic, stiffness, next_elastic, next_stiffness
+    Of friction that holds at rest: position at the last accepted step, NaN before the first; elastic force
+    [N] and stiffness [N/m] of what sticks, then and now.
+followed
+    Multiplier of the equation whose force the law follows, with its sign [N]; 0 without one.
 """
 
 Coupling: Final = record_type(

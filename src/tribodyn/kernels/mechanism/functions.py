@@ -28,7 +28,7 @@ from tribodyn.kernels.mechanism.data import (
 from tribodyn.kernels.mechanism.derivatives import fill_derivatives
 from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
-from tribodyn.kernels.mechanism.law import remember_entry
+from tribodyn.kernels.mechanism.law import remember
 from tribodyn.kernels.mechanism.newton import factorise, fill_entries, solve
 from tribodyn.kernels.mechanism.observe import fill_row, watch
 from tribodyn.kernels.mechanism.redundancy import choose_rows
@@ -94,6 +94,10 @@ def enter(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory)
             course.until = kinks[i] - BEFORE_KINK * (kinks[i] - t)
     settle(data, memory, t, y)
     mark_angles(memory.now.couplings)
+    for k in range(data.parts.couplings.size):
+        law = memory.now.couplings[k].law
+        if math.isnan(law.anchor):
+            law.anchor = law.position
     _look_after_rows(data.parts, memory.now, memory.independence)
     copy(memory.settled, y)
     ledger.begin(data.parts, memory.now, memory.books, t)
@@ -158,7 +162,7 @@ def touch(data: MechanismData, memory: MechanismMemory, at_start: float) -> None
                 data.contact, memory.contact, data.parts.couplings[k].contact, pose, at_start
             )
         if has_law(data.parts.couplings[k]):
-            remember_entry(memory.now.couplings[k].law)
+            remember(memory.now.couplings[k].law)
 
 
 @entry

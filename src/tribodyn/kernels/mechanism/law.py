@@ -15,8 +15,16 @@ from mebdf.compiled.kernel import UNCOMPILED, Instruction, Kernel, enlisted
 from mebdf.compiled.layouts import One
 from tribodyn.core.quantities import Record, RecordType, record_type
 from tribodyn.kernels.actions import Signals, evaluate
-from tribodyn.kernels.jit import SOURCES, kernel
+from tribodyn.kernels.jit import SOURCES, inlined, kernel
 from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, WORK, Law
+
+LEAST_SLOPE: Final = -1.0e4
+LARGEST_SLOPE: Final = 0.999
+"""Slopes of a reaction over the load that are extrapolated: beyond, rounds are taken as they come."""
+SAME: Final = 1.0e-10
+"""Difference of load and reaction, over these, that may be rounding: the load is kept."""
+LEAST_CHANGE: Final = 1.0e-6
+"""Change of a load, over the reaction, below which rounding decides about the slope."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +110,7 @@ def fill_law(coupling: Record, now: Record, signals: Signals) -> None:
             law.table[i] = value
             if i == 0:
                 law.table_slope = slope
-    law.normal = 0.0
+    law.normal = law.followed = 0.0
     call_law(coupling, now)
 
 
@@ -117,9 +125,42 @@ def call_law(coupling: Record, now: Record) -> None:
     now.powers[DAMPING], now.powers[FRICTION], now.powers[WORK] = law.damping, law.friction, law.supplied
 
 
+@inlined
+def followed_load(law: Record, extrapolates: float, backward: float, direction: float) -> float:
+    """Return the load that friction takes from a reaction, times ``backward`` where this drives the motion.
+
+    ``direction`` is that of the motion, by its sign.
+
+    The force of a thread changes strongly with its friction. With ``extrapolates`` rounds of both are
+    extrapolated to where neither changes, by the slope of the reaction over the load (Aitken). That slope is
+    in ``held``; load of the last round, load and reaction of the one before are in the entries of a table,
+    zero at first. Such a law has no table and no controller. Where several joints change each other's
+    reactions, plain rounds are more reliable.
+    """
+    followed: float = law.normal * (backward if law.followed * direction > 0.0 else 1.0)
+    if extrapolates > 0.0:
+        normal = followed
+        change, apart = law.table[0] - law.table[1], normal - law.table[0]
+        if normal == 0.0 and law.table[0] == 0.0:
+            law.held = 0.0
+        elif abs(change) > LEAST_CHANGE * normal:
+            slope = (normal - law.table_slope) / change
+            law.held = slope if LEAST_SLOPE < slope < LARGEST_SLOPE else 0.0
+        if abs(apart) <= SAME * normal:
+            followed = law.table[0]
+        elif change != 0.0:
+            followed = max(law.table[0] + apart / (1.0 - law.held), 0.0)
+        law.table[1], law.table_slope, law.table[0] = law.table[0], normal, followed
+    return followed
+
+
 @kernel
-def remember_entry(law: Record) -> None:
-    """Let contact begin and end at the end of an accepted step; the speed at which it begins is kept."""
+def remember(law: Record) -> None:
+    """Let contact begin and end at the end of an accepted step, and take over what sticks by friction.
+
+    The speed at which contact begins is kept.
+    """
+    law.anchor, law.elastic, law.stiffness = law.position, law.next_elastic, law.next_stiffness
     if law.touching == 0.0:
         law.entry_rate = 0.0
     elif law.entry_rate == 0.0:

@@ -198,8 +198,11 @@ def _add_reactive(parts: Parts, now: Now) -> float:
     for k in range(parts.couplings.size):
         coupling, state = parts.couplings[k], now.couplings[k]
         if coupling.load_of != NONE:
-            reaction, before = now.couplings[coupling.load_of].constraint, state.law.normal
-            state.law.normal = hypot(reaction[0], reaction[1])
+            source, before = now.couplings[coupling.load_of], state.law.normal
+            state.law.followed = source.multiplier[0]
+            state.law.normal = hypot(source.constraint[0], source.constraint[1])
+            if state.law.normal == 0.0 and parts.couplings[coupling.load_of].about != 0.0:
+                state.law.normal = abs(source.multiplier[0])  # of a leg that applies a torque alone
             change = max(change, abs(state.law.normal - before))
             largest = max(largest, state.law.normal)
             call_law(coupling, state)

@@ -70,6 +70,8 @@ def mechanism_problem(
         memory.contact.entry_velocity[:] = carried.entry_velocity
     # Of what is carried on, points that wear has taken out of contact forget.
     functions.touch(data, memory, 1.0 if carried is None else 0.0)
+    laws = memory.now.couplings["law"]
+    laws["anchor"], laws["elastic"], laws["stiffness"] = math.nan, 0.0, 0.0
     tolerances = rtol * _scales(assembly, duration) if atol is None else np.asarray(atol)
     return Problem(
         functions=replace(FUNCTIONS, jac=functions.jac) if dense else FUNCTIONS,
@@ -116,10 +118,11 @@ def _algebra(data: MechanismData) -> LinearSolver:
 def length_scale(assembly: Assembly) -> float:
     """Return the length that positions are resolved against [m].
 
-    The smallest clearance as drawn; a tenth of the mechanism where all joints are ideal.
+    The smallest clearance as drawn, or the presliding of friction; a tenth of the mechanism without both.
     """
-    clearances = [real.shape.clearance for real in assembly.model.clearances.values()]
-    return min(clearances, default=0.1 * float(assembly.data.parts.constants.size))
+    friction, size = assembly.model.case.friction, float(assembly.data.parts.constants.size)
+    lengths = [real.shape.clearance for real in assembly.model.clearances.values()]
+    return min([*lengths, *([friction.presliding] if friction.rest else [])], default=0.1 * size)
 
 
 def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:

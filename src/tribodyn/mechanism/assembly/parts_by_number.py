@@ -12,6 +12,7 @@ from itertools import chain
 
 from tribodyn.joints.clearances import Clearance
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.elements.bristle import resting
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.joints import JOINTS
@@ -90,8 +91,14 @@ class Model:
     @cached_property
     def elements(self) -> tuple[Element, ...]:
         """All elements."""
-        joints = self.case.joints
-        return tuple(Element(name, keys, keys.equations(joints)) for _, name, keys in self.case.elements())
+        case, found = self.case, []
+        for _, name, keys in case.elements():
+            equations = keys.equations(case.joints)
+            if case.friction.rest and case.run.analysis == "dynamic":
+                laws = [one.law and resting(one.law, case.friction) for one in equations]
+                equations = tuple(replace(one, law=law) for one, law in zip(equations, laws, strict=True))
+            found.append(Element(name, keys, equations))
+        return tuple(found)
 
     def number(self, body: str) -> int:
         """Return the number of a body; −1 for the ground."""

@@ -40,6 +40,7 @@ class Signatures:
         motors: Table | None = ...,
         controllers: Table | None = ...,
         wear: Table | None = ...,
+        friction: Table | None = ...,
         solver: Table | None = ...,
         run: Table | None = ...,
         results: Table | None = ...,
@@ -378,6 +379,11 @@ class Signatures:
         restitution: float | str | None = ...,
         ideal: bool | None = ...,
         pressure_angle: str | None = ...,
+        efficiency: float | str | None = ...,
+        backward_efficiency: float | str | None = ...,
+        friction_coefficient: float | str | None = ...,
+        lead_angle: str | None = ...,
+        slip_velocity: str | None = ...,
     ) -> Self: ...
     def rack(
         self,

@@ -10,21 +10,13 @@ what sticks creeps, by less than the slip velocity u_s.
 """
 
 import math
-from typing import Any, ClassVar, Final, Self
+from typing import Any, ClassVar, Self
 
 from mebdf.kernels.elementary import exp
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import number, quantity
-from tribodyn.kernels.mechanism.law import force_law
+from tribodyn.kernels.mechanism.law import followed_load, force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
-
-LEAST_SLOPE: Final = -1.0e4
-LARGEST_SLOPE: Final = 0.999
-"""Slopes of a reaction over the load that are extrapolated: beyond, rounds are taken as they come."""
-SAME: Final = 1.0e-10
-"""Difference of load and reaction, over these, that may be rounding: the load is kept."""
-LEAST_CHANGE: Final = 1.0e-6
-"""Change of a load, over the reaction, below which rounding decides about the slope."""
 
 
 @force_law(
@@ -35,31 +27,13 @@ LEAST_CHANGE: Final = 1.0e-6
     "slip_velocity",
     "viscous",
     "extrapolates",
+    "backward",
 )
 def regularised(joint: Any, law: Any) -> None:
-    """Fill the friction force at a sliding speed.
-
-    The force of a thread changes strongly with its friction. With ``extrapolates`` rounds of both are
-    extrapolated to where neither changes, by the slope of the reaction over the load (Aitken). That slope is
-    in ``held``; load of the last round, load and reaction of the one before are in the entries of a table,
-    zero at first. This law has no table and no controller. Where several joints change each other's
-    reactions, plain rounds are more reliable.
-    """
+    """Fill the friction force at a sliding speed."""
     v, slip = law.rate, joint.slip_velocity
-    followed, gain = law.normal, 0.0
-    if joint.extrapolates > 0.0:
-        change, apart = law.table[0] - law.table[1], law.normal - law.table[0]
-        if law.normal == 0.0 and law.table[0] == 0.0:
-            law.held = 0.0
-        elif abs(change) > LEAST_CHANGE * law.normal:
-            slope = (law.normal - law.table_slope) / change
-            law.held = slope if LEAST_SLOPE < slope < LARGEST_SLOPE else 0.0
-        if abs(apart) <= SAME * law.normal:
-            followed = law.table[0]
-        elif change != 0.0:
-            followed = max(law.table[0] + apart / (1.0 - law.held), 0.0)
-        law.table[1], law.table_slope, law.table[0] = law.table[0], law.normal, followed
-        gain = law.held
+    followed = followed_load(law, joint.extrapolates, joint.backward, v)
+    gain = law.held if joint.extrapolates > 0.0 else 0.0
     square = v * v + slip * slip
     direction = v / math.sqrt(square)
     share = exp(-((v / joint.stribeck_velocity) ** 2))
@@ -84,8 +58,12 @@ def friction_law(
     viscous: float = 0.0,
     load_of: str = "",
     load_leg: int | None = None,
+    backward: float = 1.0,
 ) -> ForceLaw:
-    """Return the law of friction, Coulomb's by default; ``breakaway`` is what μ_s is above μ."""
+    """Return the law of friction, Coulomb's by default; ``breakaway`` is what μ_s is above μ.
+
+    ``backward`` is the friction over that number where the force that it follows drives the motion.
+    """
     parameters = {
         "normal_load": normal_load,
         "friction_coefficient": coefficient,
@@ -94,6 +72,7 @@ def friction_law(
         "slip_velocity": slip_velocity,
         "viscous": viscous,
         "extrapolates": 0.0 if load_leg is None else 1.0,
+        "backward": backward,
     }
     return ForceLaw(regularised, parameters, load_of=load_of, load_leg=load_leg)
 

@@ -78,9 +78,10 @@ def transmitted(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str, 
         force = moment = np.zeros(len(couplings["reaction_force"]))
         for equation in element.equations:
             last, of = first + len(equation.legs) - 1, first + element.keys.MOMENT_OF
-            force = force + _along(equation.legs[-1], couplings, last)
-            turns = equation.legs[element.keys.MOMENT_OF].about != 0.0
-            moment = moment + (couplings["reaction_moment"][:, of, 2] if turns else np.nan)
+            if of <= last:  # losses of a gear act on its first wheel alone
+                force = force + _along(equation.legs[-1], couplings, last)
+                turns = equation.legs[element.keys.MOMENT_OF].about != 0.0
+                moment = moment + (couplings["reaction_moment"][:, of, 2] if turns else np.nan)
             first = last + 1
         forces.append(force)
         moments.append(moment)

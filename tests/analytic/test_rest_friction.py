@@ -1,0 +1,169 @@
+"""Friction that holds at rest: closed forms, passivity, and what must not creep."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.core.errors import InputError
+from tribodyn.core.quantities import Record
+from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.mechanism.data import Law
+from tribodyn.mechanism.elements.bristle import bristle
+
+GRAVITY, SIZE = 9.81, 0.1
+STEEP = math.atan(0.2)
+HELD = {"rest": True}
+
+
+def block(coefficient: float, **changes: Any) -> td.Mechanism:
+    """Return a block on an incline."""
+    drawn = td.Mechanism("Block", gravity=f"0, 0, -{GRAVITY} m/s^2", **({"friction": HELD} | changes))
+    drawn.body("block", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    axis = [math.cos(STEEP), 0.0, -math.sin(STEEP)]
+    drawn.prismatic("face", "ground", "block", point="0, 0, 0 mm", axis=axis)
+    drawn.friction("rubbing", joint="face", friction_coefficient=coefficient)
+    return drawn
+
+
+def moved(run: Any, after: float) -> float:
+    """Return how far bodies move after a time [m]."""
+    late = run["position"].values[run["time"].values > after]
+    return float(np.ptp(late, axis=0).max())
+
+
+def test_a_block_holds_on_an_incline() -> None:
+    run = td.simulate(block(0.25, run={"duration": "1000 s"}).case())
+    assert moved(run, 1.0) < 1e-9 * SIZE
+    assert moved(run, -1.0) < 2e-6  # from no load to that of the weight: less than the presliding
+    assert run.attrs["energy_residual"] < 1e-3
+
+
+def test_a_block_slides_by_the_law_of_coulomb() -> None:
+    run = td.simulate(block(0.15, run={"duration": "1 s"}, solver={"rtol": 1e-7}).case())
+    expected = GRAVITY * (math.sin(STEEP) - 0.15 * math.cos(STEEP))
+    late = run["time"].values > 0.1
+    found = np.linalg.norm(run["acceleration"].values[late, 0], axis=1)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_stick_slip() -> None:
+    """A mass on a spring whose end moves at V: y'' = −ω² y from y = (μ_s − μ) N/k, y' = V, until y' = V."""
+    mass, stiffness, load, drive = 2.0, 2000.0, 100.0, 0.02
+    drawn = td.Mechanism("Stick-slip", friction=HELD | {"presliding": "0.1 um"}, run={"duration": "3 s"})
+    for name, x in (("driver", -200.0), ("mass", 0.0)):
+        drawn.body(name, mass=f"{mass} kg", centre=f"{x}, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        drawn.prismatic(f"guide-{name}", "ground", name, point=f"{x}, 0, 0 mm", axis=[1, 0, 0])
+    drawn.drive("motor", joint="guide-driver", velocity=f"{drive} m/s")
+    ends = {"first_point": "-200, 0, 0 mm", "second_point": "0, 0, 0 mm"}
+    drawn.spring("pull", "driver", "mass", stiffness=f"{stiffness} N/m", **ends)
+    coefficients = {"friction_coefficient": 0.2, "static_coefficient": 0.3, "stribeck_velocity": "0.1 mm/s"}
+    drawn.friction("rubbing", joint="guide-mass", normal_load=f"{load} N", **coefficients)
+    run = td.simulate(drawn.case().replace({"run.output_interval": "0.2 ms"}))
+    omega, excess = math.sqrt(stiffness / mass), 0.1 * load / stiffness
+    period = 2.0 * excess / drive + (2.0 * math.pi - 2.0 * math.atan(excess * omega / drive)) / omega
+    speed, times = run["velocity"].sel(body="mass").values[:, 0], run["time"].values
+    fast = speed > 0.5 * speed.max()
+    begins = times[1:][fast[1:] & ~fast[:-1]]
+    assert len(begins) > 3
+    assert np.mean(np.diff(begins[1:])) == pytest.approx(period, rel=0.005)
+
+
+def test_a_screw_holds_under_vibration() -> None:
+    """tan φ = lead/(2π r) = 0.1 < μ. The nut carries 200 N and shakes by 15 %."""
+    drawn = td.Mechanism("Screw", friction=HELD, run={"duration": "1000 s"})
+    drawn.body("screw", mass="1 kg", centre="0, 0, 50 mm", inertia="1e-3, 1e-3, 2e-4 kg m^2")
+    drawn.body("nut", mass="2 kg", centre="0, 0, 30 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.revolute("bearing", "ground", "screw", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.prismatic("guide", "ground", "nut", point="0, 0, 30 mm", axis=[0, 0, 1])
+    thread = {"lead": f"{0.2 * math.pi * 8.0} mm", "radius": "8 mm", "friction_coefficient": 0.15}
+    drawn.screw("thread", joints=["bearing", "guide"], **thread)
+    where = {"body": "nut", "point": "0, 0, 30 mm", "direction": [0, 0, -1]}
+    drawn.load("weight", **where, force="200 N")
+    drawn.load("shaking", **where, force={"amplitude": "30 N", "angular_frequency": f"{math.pi} rad/s"})
+    run = td.simulate(drawn.case())
+    times, height = run["time"].values, run["position"].sel(body="nut").values[:, 2]
+    # One period apart, so that what is elastic is not counted.
+    first = np.interp(np.arange(10.0, 20.0, 0.25), times, height)
+    last = np.interp(np.arange(980.0, 990.0, 0.25), times, height)
+    assert np.abs(last - first).max() < 1e-9 * SIZE
+
+
+def law(**changes: float) -> tuple[Record, Record]:
+    """Return parameters and arguments of the law of the bristle."""
+    given = {"normal_load": 10.0, "friction_coefficient": 0.2, "stribeck_velocity": 1.0, "presliding": 1e-6}
+    joint = new_record(bristle.fields)
+    for name, value in (given | changes).items():
+        setattr(joint, name, value)
+    return joint, new_record(Law)
+
+
+@pytest.mark.parametrize("steps", [2_000, pytest.param(100_000, marks=pytest.mark.long)])
+def test_friction_is_passive_under_any_load(steps: int) -> None:
+    """What it takes in is never less than what it stores more, under loads with lift-off."""
+    random, (joint, now) = np.random.default_rng(60), law(breakaway=0.1)
+    loads = np.maximum(10.0 * random.normal(size=steps), 0.0)
+    ways = 5e-7 * random.standard_t(2.0, size=steps)
+    taken = stored = 0.0
+    for load, way in zip(loads, ways, strict=True):
+        joint.normal_load, now.rate = load, way / 1e-4
+        bristle(joint, now)
+        before, kept = now.force, now.next_elastic**2 / max(now.next_stiffness, 1e-300)
+        assert 0.5 * kept <= stored * (1.0 + 1e-12)  # a change of the load at rest gives nothing
+        now.position = now.anchor + way
+        bristle(joint, now)
+        taken -= 0.5 * (before + now.force) * way
+        stored = 0.5 * now.next_elastic**2 / max(now.next_stiffness, 1e-300)
+        now.anchor, now.elastic, now.stiffness = now.position, now.next_elastic, now.next_stiffness
+        assert taken >= stored - 1e-12
+    assert taken > 10.0 * stored
+
+
+def test_loops_of_presliding_follow_masing() -> None:
+    """Back from a displacement the force is twice the first loading at half the way; then comes the limit."""
+    joint, now = law()
+    limit, ways = 0.2 * 10.0, 1e-6 * np.array([0.3, 0.6, 0.2, -0.4, -0.9, -1.3, -1.5, 0.1])
+    found = []
+    for way in ways:
+        now.position = way
+        bristle(joint, now)
+        found.append(-now.force / limit)
+        now.anchor, now.elastic, now.stiffness = way, now.next_elastic, now.next_stiffness
+    # A spring of 2 N/um that yields at 2 N, at -1 um for the first time.
+    np.testing.assert_allclose(found, [0.3, 0.6, 0.2, -0.4, -0.9, -1.0, -1.0, 0.6], rtol=1e-12)
+
+
+def test_a_parked_four_bar_holds() -> None:
+    drawn = td.Mechanism(
+        "Four-bar", gravity=f"0, -{GRAVITY}, 0 m/s^2", friction=HELD, run={"duration": "1000 s"}
+    )
+    points = {"main": (0, 0), "pin": (30, 0), "top": (60, 70), "pivot": (90, 0)}
+    bodies = {"crank": ("main", "pin"), "coupler": ("pin", "top"), "rocker": ("top", "pivot")}
+    for name, ends in bodies.items():
+        x, y = (sum(points[end][k] for end in ends) / 2.0 for k in range(2))
+        drawn.body(name, mass="0.3 kg", centre=f"{x}, {y}, 0 mm", inertia="1e-4, 1e-4, 1e-4 kg m^2")
+    kinds = {"main": "revolute", "pin": "spherical", "top": "cylindrical", "pivot": "revolute"}
+    for first, second, name in zip(("ground", *bodies), (*bodies, "ground"), points, strict=True):
+        axis = {} if name == "pin" else {"axis": [0, 0, 1]}
+        x, y = points[name]
+        getattr(drawn, kinds[name])(name, first, second, point=f"{x}, {y}, 0 mm", **axis)
+    for name, load in (("main", {"normal_load": "100 N"}), ("pivot", {})):
+        drawn.friction(f"rubbing-{name}", joint=name, radius="10 mm", friction_coefficient=0.2, **load)
+    run = td.simulate(drawn.case())
+    assert moved(run, 10.0) < 1e-9 * SIZE
+    free = td.simulate(drawn.case().replace({"friction.rest": False, "run.duration": "10 s"}))
+    assert moved(free, 5.0) > 1e-4 * SIZE
+
+
+def test_friction_without_a_load_is_refused() -> None:
+    with pytest.raises(InputError, match="holds by its load") as caught:
+        block(0.2, run={"duration": "1 s"}).case().replace({"frictions.rubbing.normal_load": "0 N"})
+    assert caught.value.key == "frictions.rubbing.normal_load"
+    drawn = td.Mechanism("Smooth", friction=HELD, run={"duration": "1 s"})
+    drawn.body("block", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.prismatic("face", "ground", "block", point="0, 0, 0 mm", axis=[1, 0, 0])
+    with pytest.raises(InputError, match="nothing here has friction") as caught:
+        drawn.case()
+    assert caught.value.key == "friction.rest"
