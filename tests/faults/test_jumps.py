@@ -430,6 +430,32 @@ def test_a_rest_at_a_jump(rtol):
     assert calls < 4000
 
 
+def pressures(t, y):
+    """Return the equations of two vessels whose sections grow, and of their pressures."""
+    return np.append(orifices(y[2:]), y[2:] + 0.1 * y[2:] ** 2 - y[:2])
+
+
+def held(t, y):
+    """Return the rate of a place that slides along a jump of a measure of it, and that of the measure."""
+    return [0.3 - np.sign(y[1]), y[1] + 0.1 * np.sin(y[1]) - 2.0 * y[0]]
+
+
+@pytest.mark.parametrize("rtol", TOLERANCES)
+@pytest.mark.parametrize(
+    ("fun", "y0", "mass", "end"),
+    [
+        (pressures, [1.1, 0.0, 1.0, 0.0], [1.0, 1.0, 0.0, 0.0], [0.55, 0.55]),
+        (held, [0.5 + 0.05 * np.sin(1.0), 1.0], [1.0, 0.0], [0.0]),
+    ],
+)
+def test_a_rest_beside_algebraic_equations(fun, y0, mass, end, rtol):
+    # The tanks took over 20,000 calls at 1e-4 and below, and a slide failed.
+    case = Case(fun, 20.0, y0, np.array(end), rtol, 1e-3 * rtol, 1.0)
+    solution, calls = run(case, mass=mass)
+    assert error(case, solution) < 10.0
+    assert calls < 3000
+
+
 @pytest.mark.parametrize("rtol", TOLERANCES)
 def test_a_run_that_makes_no_progress_says_so(rtol):
     """The flow as an algebraic variable can be told from rest no better than the root of rounding."""

@@ -53,14 +53,14 @@ def judge(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int:
         removed = state.unsolved / state.left
         state.trust = max(state.trust, removed * min(PROVED / state.left, TRUSTED))
         state.reached = min(state.reached, state.unsolved)
-    return IN_DOUBT if _is_doubtful(state) or _has_unproved(state, rows, places, 0.0) else SOLVED
+    return IN_DOUBT if _is_doubtful(state) or has_unproved(state, rows, places, 0.0) else SOLVED
 
 
 @kernel
 def judge_beside_rounding(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> int:
     """Return SOLVED, OPEN or FALSE for a stage in doubt, with its row MAGNITUDE filled."""
     verdict = _judge_residual(state, rows, places) if _is_doubtful(state) else SOLVED
-    return OPEN if verdict == SOLVED and _has_unproved(state, rows, places, NOISE) else verdict
+    return OPEN if verdict == SOLVED and has_unproved(state, rows, places, NOISE) else verdict
 
 
 @kernel
@@ -96,7 +96,7 @@ def _judge_residual(state: Numbers, rows: FloatArray, places: NDArray[np.int64])
 
 
 @kernel
-def _has_unproved(state: Numbers, rows: FloatArray, places: NDArray[np.int64], noise: float) -> bool:
+def has_unproved(state: Numbers, rows: FloatArray, places: NDArray[np.int64], noise: float) -> bool:
     """Tell whether an algebraic equation has a residual that the Jacobian was not seen to remove.
 
     There is no scale for it but that: the Jacobian's may be wrong. Below ``noise`` times its terms it counts

@@ -147,6 +147,8 @@ def iterate(
         else:
             _set_residual_with_mass(state, rows, mass, places)
         if state.trouble >= TROUBLE and state.iteration > 0:
+            if places.size > 0 and state.outside == 0:
+                magnify(rows, matrices, mass, places, state.scaled)
             if look_back(state, rows, mass, places):
                 return _ask(state)
             if state.between == TOO_FAR:

@@ -7,7 +7,8 @@ two values whose residuals point to each other. Their distance is halved until i
 The smallest residual of all mixtures of both is what the other equations still lack: one more correction
 removes it.
 
-Residuals of algebraic equations have no scale to be compared by: where there are any nothing is looked for.
+Residuals of algebraic equations have no scale to be compared by. Nothing is looked for while they are larger
+than what the Jacobian removes, or while they alone are left.
 """
 
 import math
@@ -18,11 +19,11 @@ from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
 from mebdf.kernels import state as at
-from mebdf.kernels.acceptance import OPEN, SOLVED
+from mebdf.kernels.acceptance import NOISE, NOTHING, OPEN, SOLVED, has_unproved
 from mebdf.kernels.coefficients import SCALARS
 from mebdf.kernels.control import MOST_CAUTION, TROUBLE, error_of, error_weight, largest_error, norm
 from mebdf.kernels.jit import inlined, kernel
-from mebdf.kernels.mass import is_algebraic, product
+from mebdf.kernels.mass import product
 from mebdf.kernels.state import Numbers
 
 # Values of ``state.between``: the solution lies between two values, their mixture is the stage, or the last
@@ -83,9 +84,8 @@ def look_back(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArra
     Once they are close the row RESIDUAL becomes that of the mixture of both, for a last correction. Where all
     between them lies too far from the extrapolation the stage ends at once.
     """
-    for i in range(rows.shape[1] if places.size > 0 else 0):
-        if is_algebraic(places, i):
-            return _leave(state)
+    if has_unproved(state, rows, places, NOISE) or (places.size > 0 and state.unsolved <= NOTHING):
+        return _leave(state)
     back = _along(rows, mass, places, at.RESIDUAL) < 0.0
     if state.between != HALVING:
         alone = state.overshot > 0.0 or (state.left <= SLOW and not (back and state.between == GONE))
