@@ -35,15 +35,19 @@ def _crank_end(lengths: Lengths, theta_a: FloatArray) -> tuple[FloatArray, Float
     return s1_x, s1_z
 
 
-def _closure(lengths: Lengths, s1_x: FloatArray, s1_z: FloatArray, theta_v: FloatArray) -> FloatArray:
-    """Return the closure [m²] with S1 given; the ring's arm is at φ − θ_b, tan θ_b = −l_4 cos θ_v / l_3."""
+def _ring_end(lengths: Lengths, theta_v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return x, y and z of S2 [m]; the ring's arm is at φ − θ_b, tan θ_b = −l_4 cos θ_v / l_3."""
     arm = lengths.l_4 * portable.cos(theta_v)
     scale = lengths.l_3 / np.sqrt(lengths.l_3**2 + arm**2)
     sine, cosine = portable.sin(lengths.phi), portable.cos(lengths.phi)
-    d_x = scale * (lengths.l_3 * sine + arm * cosine) - s1_x
-    d_y = lengths.l_4 * (portable.sin(theta_v) - 1.0)
-    d_z = scale * (lengths.l_3 * cosine - arm * sine) - s1_z
-    return np.asarray(d_x**2 + d_y**2 + d_z**2 - lengths.l_2 * lengths.l_2)
+    s2_x = scale * (lengths.l_3 * sine + arm * cosine)
+    return s2_x, lengths.l_4 * (portable.sin(theta_v) - 1.0), scale * (lengths.l_3 * cosine - arm * sine)
+
+
+def _closure(lengths: Lengths, s1_x: FloatArray, s1_z: FloatArray, theta_v: FloatArray) -> FloatArray:
+    """Return the closure [m²] with S1 given."""
+    x, y, z = _ring_end(lengths, theta_v)
+    return np.asarray((x - s1_x) ** 2 + y**2 + (z - s1_z) ** 2 - lengths.l_2 * lengths.l_2)
 
 
 def sense(lengths: Lengths) -> float:
@@ -66,11 +70,8 @@ def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
     theta_a
         Crank angles [rad], shape (n,).
     """
-    sign = sense(lengths)
-    # In blocks whose arrays stay in the cache of the processor.
-    blocks = np.array_split(theta_a, theta_a.size // _BLOCK + 1)
-    low, high = np.concatenate([_bracket(lengths, sign, block) for block in blocks], axis=1)
-    s1 = _crank_end(lengths, theta_a)
+    sign, s1 = sense(lengths), _crank_end(lengths, theta_a)
+    low, high = _brackets(lengths, sign, s1)
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         above = sign * _closure(lengths, *s1, middle) > 0.0
@@ -86,13 +87,20 @@ def ideal_at(lengths: Lengths, theta_a: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(ideal_vane_angle(lengths, np.array(theta_a)).tolist())
 
 
-def _bracket(lengths: Lengths, sign: float, theta_a: FloatArray) -> FloatArray:
+def _brackets(lengths: Lengths, sign: float, s1: tuple[FloatArray, FloatArray]) -> FloatArray:
     """Return between which θ_v [rad] of a scan the closure rises through zero, shape (2, n), or NaN."""
     scan = np.linspace(-math.pi / 2.0, 3.0 * math.pi / 2.0, _SCAN)
-    above = sign * closure(lengths, theta_a[:, None], scan[None, :]) > 0.0
-    crossing = ~above[:, :-1] & above[:, 1:]
-    first = np.argmax(np.where(crossing, portable.sin(0.5 * (scan[:-1] + scan[1:])), -math.inf), axis=1)
-    return np.where(crossing.any(axis=1), [scan[first], scan[first + 1]], np.nan)
+    x, y, z = _ring_end(lengths, scan)
+    own, weight = x**2 + y**2 + z**2 - lengths.l_2 * lengths.l_2, portable.sin(0.5 * (scan[:-1] + scan[1:]))
+    found = []
+    # In blocks whose arrays stay in the cache of the processor.
+    for block in np.array_split(np.column_stack(s1), s1[0].size // _BLOCK + 1):
+        s1_x, s1_z = block[:, :1], block[:, 1:]
+        above = sign * (own + (s1_x**2 + s1_z**2) - 2.0 * (s1_x * x + s1_z * z)) > 0.0
+        crossing = ~above[:, :-1] & above[:, 1:]
+        first = np.argmax(np.where(crossing, weight, -math.inf), axis=1)
+        found.append(np.where(crossing.any(axis=1), [scan[first], scan[first + 1]], np.nan))
+    return np.concatenate(found, axis=1)
 
 
 def reachable(lengths: Lengths, first: float, last: float) -> tuple[float, float] | None:
