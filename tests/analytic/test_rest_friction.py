@@ -157,6 +157,37 @@ def test_a_parked_four_bar_holds() -> None:
     assert moved(free, 5.0) > 1e-4 * SIZE
 
 
+def pin(offset: float, **changes: Any) -> td.Mechanism:
+    """Return an arm on a pin with clearance, whose mass centre lies beside the pin [mm]."""
+    gravity = f"0, -{GRAVITY}, 0 m/s^2"
+    drawn = td.Mechanism(
+        "Pin", gravity=gravity, **({"friction": HELD, "run": {"duration": "100 s"}} | changes)
+    )
+    drawn.body("arm", mass="1 kg", centre=f"{offset}, 0, 0 mm", inertia="1e-4, 1e-4, 1e-4 kg m^2")
+    drawn.revolute("pivot", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1])
+    sizes = {"radius": "10 mm", "radial": "20 um", "length": "20 mm", "axial": "50 um"}
+    return drawn.clearance("pivot", **sizes, friction_coefficient=0.1, nodes_around=48, nodes_along=4)
+
+
+def test_a_pin_holds_in_its_bore() -> None:
+    """The weight beside the pin has the arm 0.5 mm, friction μ R = 1 mm."""
+    run = td.simulate(pin(0.5).case())
+    assert moved(run, 5.0) < 1e-9 * 0.02
+    free = td.simulate(pin(0.5).case().replace({"friction.rest": "false", "run.duration": "10 s"}))
+    assert moved(free, 5.0) > 1e-6
+
+
+def test_a_sliding_pin_has_the_friction_of_the_regularised_law() -> None:
+    found = []
+    for held in (True, False):
+        drawn = pin(0.0, friction={"rest": held}, run={"duration": "50 ms"}, solver={"rtol": 1e-7})
+        drawn.drive("motor", "pivot", speed="1000 rpm")
+        run = td.simulate(drawn.case())
+        found.append([run["drive_moment"].values[-1, 0], run["energy_friction"].values[-1]])
+        assert run.attrs["energy_residual"] < 1e-4
+    np.testing.assert_allclose(*found, rtol=2e-6)
+
+
 def test_friction_without_a_load_is_refused() -> None:
     with pytest.raises(InputError, match="holds by its load") as caught:
         block(0.2, run={"duration": "1 s"}).case().replace({"frictions.rubbing.normal_load": "0 N"})

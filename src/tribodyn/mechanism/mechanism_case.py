@@ -490,8 +490,12 @@ class MechanismCase(_WithElements):
         if not self.friction.rest:
             return
         laws = (one.law for _, _, keys in self.elements() for one in keys.equations(self.joints))
-        words = "nothing here has friction that could hold: give [frictions], or the friction of a screw"
-        demand(any(law is not None and law.function is regularised for law in laws), "friction.rest", words)
+        words = "nothing here has friction that could hold: give it to a joint, or to an element"
+        rubs = any(
+            joint.real is not None and joint.real.friction_coefficient > 0.0 for joint in self.joints.values()
+        )
+        rubs = rubs or any(law is not None and law.function is regularised for law in laws)
+        demand(rubs, "friction.rest", words)
         for name, keys in getattr(self, JointFriction.TABLE).items():
             words = "friction holds by its load: give one above 0, or leave it out for that of the joint"
             demand(keys.normal_load != 0.0, f"{JointFriction.TABLE}.{name}.normal_load", words)

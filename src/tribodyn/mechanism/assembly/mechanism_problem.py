@@ -8,13 +8,16 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
+from tribodyn.joints.clearances import places
 from tribodyn.kernels import dense
+from tribodyn.kernels.joints.surface.memory import DEPTH, LARGEST, LEVER, RATE
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.ordering import n_blocks
+from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanisms.shaft_loads import WAVE_STEPS
 from tribodyn.mechanisms.wear_state import Carried
@@ -29,6 +32,8 @@ STATES: Final = (
 """States of a body; the angular velocity is in its own axes."""
 
 Tolerances = tuple[float, float, float, float]
+DEVELOPED: Final = 5.0
+"""Sliding speed over the slip velocity up to which friction at rest stretches: 98 % of its limit."""
 
 
 def mechanism_problem(
@@ -68,6 +73,7 @@ def mechanism_problem(
     memory, kinks = memory_of(assembly, start), data.signals.kinks
     if carried is not None:
         memory.contact.entry_velocity[:] = carried.entry_velocity
+    _let_rest(assembly.model, memory.contact.strains)
     # Of what is carried on, points that wear has taken out of contact forget.
     functions.touch(data, memory, 1.0 if carried is None else 0.0)
     laws = memory.now.couplings["law"]
@@ -88,6 +94,19 @@ def mechanism_problem(
         algebra=None if dense else _algebra(data),
         longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
     )
+
+
+def _let_rest(model: Model, strains: FloatArray) -> None:
+    """Fill the constants of friction that holds at rest for all surfaces (n_surfaces, n), where it does."""
+    friction, clearances = model.case.friction, tuple(model.clearances.values())
+    if not friction.rest or model.case.run.analysis != "dynamic":
+        return
+    for strain, place in zip(strains, places(clearances), strict=True):
+        surface, clearance = place.surface, clearances[place.joint]
+        strain[RATE] = clearance.slip_velocity * DEVELOPED / friction.presliding
+        strain[DEPTH] = np.mean(np.sum(surface.normal * surface.position, axis=1))
+        strain[LEVER] = math.sqrt(np.mean(np.sum(surface.position**2, axis=1)))
+        strain[LARGEST] = friction.presliding
 
 
 def _shortest_wave(case: MechanismCase) -> float:
@@ -118,11 +137,11 @@ def _algebra(data: MechanismData) -> LinearSolver:
 def length_scale(assembly: Assembly) -> float:
     """Return the length that positions are resolved against [m].
 
-    The smallest clearance as drawn, or the presliding of friction; a tenth of the mechanism without both.
+    The smallest clearance as drawn; without any the presliding of friction, or a tenth of the mechanism.
     """
     friction, size = assembly.model.case.friction, float(assembly.data.parts.constants.size)
-    lengths = [real.shape.clearance for real in assembly.model.clearances.values()]
-    return min([*lengths, *([friction.presliding] if friction.rest else [])], default=0.1 * size)
+    clearances = [real.shape.clearance for real in assembly.model.clearances.values()]
+    return min(clearances, default=friction.presliding if friction.rest else 0.1 * size)
 
 
 def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:

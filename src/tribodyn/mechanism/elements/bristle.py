@@ -4,11 +4,11 @@ With the normal load N, the limit L = N (μ + (μ_s − μ) exp(−(v/v_s)²)) a
 
     ė = k v,   |e| ≤ L,   F = e + τ k v,   |F| ≤ L,
 
-against the motion. k is the largest N μ_s/δ since it slid last, δ being the displacement at which it breaks
-away. What is stored, e²/2k, does not grow with N, so friction is passive for any N(t) ≥ 0; and as k stays, a
-load that oscillates below the limit moves nothing for good. Under constant N this is the bristle
-F = σ₀ z + σ₁ ż, which yields at its limit. Sliding is Coulomb's law. From one accepted step to the next e
-follows from the displacement since then, without an equation of its own.
+against the motion. k grows to N μ_s/δ at least, δ being the displacement at which it breaks away, and falls
+back to that where it slides. What is stored, e²/2k, does not grow with N, so friction is passive for any
+N(t) ≥ 0; and as k stays, a load that oscillates below the limit moves nothing for good. Under constant N this
+is the bristle F = σ₀ z + σ₁ ż, which yields at its limit. Sliding is Coulomb's law. From one accepted step to
+the next e follows from the displacement since then, without an equation of its own.
 """
 
 import math
@@ -56,7 +56,11 @@ def bristle(joint: Any, law: Any) -> None:
     if moved == moved:  # before the start there is no last step
         elastic += stiffness * moved
     bounded = min(max(elastic, -limit), limit)
-    law.next_elastic, law.next_stiffness = bounded, stiffness if bounded == elastic else fresh
+    law.next_elastic, law.next_stiffness = bounded, stiffness
+    if bounded != elastic:
+        # What slips loses L (|e| − L)/k at least, and no more may become stored by a softer spring.
+        slipped = (abs(elastic) - limit) / limit if limit > 0.0 else math.inf
+        law.next_stiffness = max(fresh, stiffness / (1.0 + 2.0 * slipped))
     resisting = bounded + joint.settling * stiffness * v
     force = min(max(resisting, -limit), limit)
     law.force = -force - joint.viscous * v

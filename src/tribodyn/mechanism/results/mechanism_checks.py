@@ -40,7 +40,9 @@ def of_slow_sliding(
     rows
         Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
     """
-    found = []
+    found: list[str] = []
+    if model.case.friction.rest:
+        return found
     for joint, slip, speed in _sliding(model, places, rows):
         path = np.abs(speed[:-1]) * np.diff(times)
         slow = float(np.sum(path[np.abs(speed[:-1]) < _DEVELOPED * slip]))

@@ -16,7 +16,15 @@ from tribodyn.kernels.joints.surface import point, ring_entry, ring_jacobian, ri
 from tribodyn.kernels.joints.surface import report as over_surface
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring
 from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
-from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.memory import (
+    RATE,
+    SHARE,
+    SurfaceMemory,
+    add_stiffness,
+    add_strain,
+    take_over,
+    tell_motion,
+)
 from tribodyn.kernels.joints.surface.pose import TURN, Pose
 from tribodyn.kernels.joints.surface.station import (
     derivatives_at_origin,
@@ -29,13 +37,16 @@ from tribodyn.kernels.joints.surface.wrench import wrench as surface_wrench
 
 
 @kernel
-def _look(surface: Record, scratch: Record, pose: Record) -> None:
-    """Fill tilt and station of the scratch."""
+def _look(data: SurfaceData, memory: SurfaceMemory, s: int, j: int, pose: Record) -> None:
+    """Fill tilt and station of the scratch for surface ``s`` of joint ``j``."""
+    surface, scratch = data.surfaces[s], memory.scratch
     opens, station = surface.opens, scratch.station
     fill_tilt(surface.tilt, pose.rotation, pose.w, scratch.tilt)
     fill_station(surface.slides, pose, scratch.tilt, station)
     station.opening = opens[0] * pose.opening[0] + opens[1] * pose.opening[1]
     station.v_opening = opens[0] * pose.v_opening[0] + opens[1] * pose.v_opening[1]
+    if memory.strains[s, RATE] > 0.0:
+        add_strain(memory, s, j, pose)
 
 
 @kernel
@@ -81,6 +92,8 @@ def fill_report(data: SurfaceData, s: int, memory: SurfaceMemory) -> None:
         point.add_points(data, s, memory, memory.scratch.station, 0.0, 1.0)
     else:
         over_surface.report(data, s, memory, memory.scratch.station)
+    if memory.strains[s, RATE] > 0.0:
+        tell_motion(memory, s, memory.reports[s])
     memory.reports[s].expansion_power -= memory.scratch.station.v_opening * memory.scratch.rigid_load
 
 
@@ -115,7 +128,7 @@ def wrench(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: 
     for k in range(6):
         out[k] = 0.0
     for s in range(data.joints[j], data.joints[j + 1]):
-        _look(data.surfaces[s], memory.scratch, pose)
+        _look(data, memory, s, j, pose)
         fill_wrench(data, s, memory)
         _add_wrench(memory, out)
 
@@ -130,12 +143,14 @@ def wrench_and_jacobian(
     clear(jacobian)
     for s in range(data.joints[j], data.joints[j + 1]):
         surface = data.surfaces[s]
-        _look(surface, memory.scratch, pose)
+        _look(data, memory, s, j, pose)
         fill_wrench_and_derivatives(data, s, memory)
         if surface.slides > 0.0:
             derivatives_at_origin(memory.scratch, pose)
         _add_wrench(memory, out)
         add_derivatives(surface.tilt, memory.scratch, pose, jacobian)
+        if memory.strains[s, RATE] > 0.0:
+            add_stiffness(memory.strains[s, RATE], memory.scratch.friction_slip, jacobian)
 
 
 @kernel
@@ -205,7 +220,7 @@ def add_reported(report: Record, out: FloatArray) -> None:
 def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Record, Pose]) -> None:
     """Fill the reports of the surfaces of joint ``j``."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        _look(data.surfaces[s], memory.scratch, pose)
+        _look(data, memory, s, j, pose)
         fill_report(data, s, memory)
         _fill_parts(memory, memory.reports[s])
 
@@ -214,7 +229,7 @@ def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Rec
 def slide(data: SurfaceData, memory: SurfaceMemory, j: int, h: float) -> None:
     """Add the sliding in ``h`` [s], as at the last report, to the sliding load."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        over_surface.slide(data, s, memory, h)
+        over_surface.slide(data, s, memory, h * memory.strains[s, SHARE])
 
 
 @kernel
@@ -223,7 +238,7 @@ def pressure_field(
 ) -> None:
     """Fill the nodes of joint ``j`` in ``pressure`` (n_nodes,) with P_c [Pa]; points have none."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        _look(data.surfaces[s], memory.scratch, pose)
+        _look(data, memory, s, j, pose)
         fill_pressure(data, s, memory, pressure)
 
 
@@ -233,5 +248,6 @@ def update_entry_velocity(
 ) -> None:
     """Let contact of joint ``j`` begin and end at the end of an accepted step."""
     for s in range(data.joints[j], data.joints[j + 1]):
-        _look(data.surfaces[s], memory.scratch, pose)
+        _look(data, memory, s, j, pose)
         fill_entry_velocity(data, s, memory, at_start)
+    take_over(data, memory, j, pose)

@@ -1,11 +1,17 @@
-"""History variables of clearance joints: begin of contact, sliding, peaks; and their work arrays."""
+"""History variables of clearance joints: begin of contact, sliding, what sticks, peaks; and work arrays.
+
+Friction may hold at rest. Of a shaft whose velocity and angular velocity are V, tractions follow the slip of
+V + U/τ. U is what sticks: a displacement and a rotation, with those of the shaft since the last accepted
+step. A node at rest then resists with the stiffness μ p/(u_s τ). At accepted steps U becomes the slip of the
+contact's middle and the spin about its normal, both bounded; where nothing touches there is none.
+"""
 
 import math
 from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, IntArray, IntMatrix
+from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import kernel
@@ -24,6 +30,21 @@ COLUMNS: Final = 12
 N_SUMS: Final = 105
 """Sums over the nodes of a ring for derivatives, see ``ring_slopes``."""
 
+SHARE: Final = 6
+"""Sliding speed over that of the tractions, at the last report; before it U [m] and [rad]."""
+RATE: Final = 7
+"""1/τ [1/s], 0 without friction at rest."""
+DEPTH: Final = 8
+LEVER: Final = 9
+"""Distance of the nodes from the origin of the shaft along the normal, and as a root of mean squares [m]."""
+LARGEST: Final = 10
+"""Bound of U [m]."""
+N_STRAIN: Final = 11
+"""Numbers of a surface."""
+KNOWN: Final = 12
+N_ANCHOR: Final = 13
+"""Numbers of a joint: displacement and rotation of the shaft at the last accepted step, and 1 with one."""
+
 Scratch: Final = record_type(
     ("pose", Pose),
     ("tilt", Tilt),
@@ -36,6 +57,8 @@ Scratch: Final = record_type(
     ("rigid_load", "f8"),
     ("moment", "f8", (3,)),
     ("rigid_moment", "f8", (3,)),
+    ("moving", "f8", (6,)),
+    ("strained", "f8", (6,)),
     ("ring_sums", "f8", (WIDTH * WIDTH * N_SUMS,)),
     ("ring_slopes", "f8", (WIDTH * 5 * 36,)),
     ("listed", Listed),
@@ -54,6 +77,8 @@ normal_place, normal_rate, friction_place, friction_rate, friction_slip
     Derivatives of normal and friction in (d, φ), (v, φ̇), and (v, ω).
 moment, rigid_moment
     Moments of the pressure and of its rigid part, turned.
+moving, strained
+    Slip and angular velocity of the station without what sticks; U, see above.
 """
 
 
@@ -78,6 +103,9 @@ class SurfaceMemory(NamedTuple):
         Nodes of patches that it belongs to, shape (n_nodes,), and their number, shape (n_surfaces,).
     reports, peaks
         Of each surface, see ``quantities``, shape (n_surfaces,).
+    strains, anchors
+        Of friction that holds at rest, shapes (n_surfaces, ``N_STRAIN``) and
+        (n_joints, ``N_ANCHOR``).
     block
         Four rings and the groups of their nodes, see ``block`` and ``ring``; work, as ``scratch`` is.
     scratch
@@ -93,6 +121,8 @@ class SurfaceMemory(NamedTuple):
     n_touched: IntArray
     reports: Annotated[Record, Report, 1]
     peaks: Annotated[Record, Peaks, 1]
+    strains: FloatMatrix
+    anchors: FloatMatrix
     block: FloatArray
     scratch: Annotated[Record, Scratch]
 
@@ -106,6 +136,8 @@ def new_memory(data: SurfaceData) -> SurfaceMemory:
     n_nodes, n_surfaces = data.nodes.shape[1], data.surfaces.size
     peaks = np.zeros(n_surfaces, dtype=Peaks)
     peaks["separation_least"] = math.inf
+    strains = np.zeros((n_surfaces, N_STRAIN))
+    strains[:, SHARE] = 1.0
     return SurfaceMemory(
         entry_velocity=np.zeros(n_nodes),
         remembering=np.zeros(data.rows.size),
@@ -116,6 +148,8 @@ def new_memory(data: SurfaceData) -> SurfaceMemory:
         n_touched=np.zeros(n_surfaces, dtype=np.int64),
         reports=np.zeros(n_surfaces, dtype=Report),
         peaks=peaks,
+        strains=strains,
+        anchors=np.zeros((data.joints.size - 1, N_ANCHOR)),
         block=np.zeros(_block_size(data.rows)),
         scratch=new_record(Scratch),
     )
@@ -134,3 +168,101 @@ def note_peaks(data: SurfaceData, memory: SurfaceMemory, j: int, t: float, h: fl
         peaks.plastic_share = max(peaks.plastic_share, report.plastic_share)
         peaks.separation_least = min(peaks.separation_least, report.separation_min)
         peaks.tensile_clip_time += h * report.tensile_clip_share
+
+
+@kernel
+def _fill_strained(memory: SurfaceMemory, s: int, j: int, pose: Record, out: FloatArray) -> None:
+    """Fill ``out`` (6,) with U of a surface at a pose: the rotation since the anchor is a small one."""
+    strain, anchor, turned = memory.strains[s], memory.anchors[j], pose.rotation
+    for i in range(6):
+        out[i] = strain[i]
+    if anchor[KNOWN] == 0.0:
+        return
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        out[i] += pose.d[i] - anchor[i]
+        for m in range(3):
+            out[3 + i] += 0.5 * (turned[b, m] * anchor[3 + 3 * a + m] - turned[a, m] * anchor[3 + 3 * b + m])
+
+
+@kernel
+def add_strain(memory: SurfaceMemory, s: int, j: int, pose: Record) -> None:
+    """Add the elastic slip of a surface to its station."""
+    scratch, station, rate = memory.scratch, memory.scratch.station, memory.strains[s, RATE]
+    for i in range(3):
+        scratch.moving[i], scratch.moving[3 + i] = station.slip[i], station.w[i]
+    _fill_strained(memory, s, j, pose, scratch.strained)
+    x, z, u = scratch.strained, station.height, station.axis
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        station.slip[i] += rate * (x[i] - z * (x[3 + a] * u[b] - x[3 + b] * u[a]))
+        station.w[i] += rate * x[3 + i]
+
+
+@kernel
+def add_stiffness(rate: float, slip: FloatArray, jacobian: FloatArray) -> None:
+    """Add the derivatives of the elastic slip in the pose to ``jacobian`` (6, 12)."""
+    for i in range(6):
+        for k in range(6):
+            jacobian[i, k] += rate * slip[i, k]
+
+
+@kernel
+def tell_motion(memory: SurfaceMemory, s: int, out: Record) -> None:
+    """Put the power of the motion into a report, and note its share in that of the tractions."""
+    scratch, power = memory.scratch, 0.0
+    for i in range(6):
+        power += scratch.friction[i] * scratch.moving[i]
+    found = out.friction_power
+    memory.strains[s, SHARE] = max(power / found, 0.0) if found < 0.0 else 1.0
+    out.friction_power = power
+
+
+@kernel
+def take_over(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> None:
+    """Take over what sticks in joint ``j`` at the end of an accepted step, by its last reports."""
+    anchor = memory.anchors[j]
+    for s in range(data.joints[j], data.joints[j + 1]):
+        if memory.strains[s, RATE] > 0.0:
+            _fill_strained(memory, s, j, pose, memory.scratch.strained)
+            _bound(memory.strains[s], memory.reports[s], memory.scratch.strained)
+    anchor[KNOWN] = 1.0
+    for i in range(3):
+        anchor[i] = pose.d[i]
+        for m in range(3):
+            anchor[3 + 3 * i + m] = pose.rotation[i, m]
+
+
+@kernel
+def _bound(strain: FloatArray, report: Record, x: FloatArray) -> None:
+    """Fill U with slip and spin of ``x`` (6,) at the middle of the contact, bounded."""
+    force = (report.F_cx, report.F_cy, report.F_cz)
+    moment = (report.M_cx, report.M_cy, report.M_cz)
+    square = force[0] * force[0] + force[1] * force[1] + force[2] * force[2]
+    if square == 0.0:
+        for i in range(6):
+            strain[i] = 0.0
+        return
+    size, spin, across, slips = math.sqrt(square), 0.0, 0.0, 0.0
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        # The middle lies where the force passes, on the side that it comes from.
+        strain[3 + i] = (force[a] * moment[b] - force[b] * moment[a]) / square - strain[DEPTH] * force[
+            i
+        ] / size
+        spin += force[i] / size * x[3 + i]
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        strain[i] = x[i] + x[3 + a] * strain[3 + b] - x[3 + b] * strain[3 + a]
+        across += force[i] / size * strain[i]
+    for i in range(3):
+        strain[i] -= across * force[i] / size
+        slips += strain[i] * strain[i]
+    whole = math.sqrt(slips) + strain[LEVER] * abs(spin)
+    factor = min(1.0, strain[LARGEST] / whole) if whole > 0.0 else 1.0
+    n = (force[0] / size, force[1] / size, force[2] / size)
+    c = (strain[3], strain[4], strain[5])
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        strain[i] = factor * (strain[i] - spin * (n[a] * c[b] - n[b] * c[a]))
+        strain[3 + i] = factor * spin * n[i]
