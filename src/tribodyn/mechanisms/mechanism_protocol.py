@@ -8,6 +8,7 @@ the descriptor and knows no mechanism by name.
 from __future__ import annotations
 
 import importlib
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, cast
@@ -269,7 +270,7 @@ ByPart: TypeAlias = Callable[[str], KeyResult]
 
 def plain(name: str) -> str:
     """Return the name that a user gave a part as it stands in the name of a number."""
-    return name.replace("-", "_")
+    return re.sub(r"[-\[:]", "_", name).replace("]", "")
 
 
 @dataclass(frozen=True)

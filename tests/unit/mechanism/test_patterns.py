@@ -154,7 +154,7 @@ def test_a_written_case_reads_back(ring: Case) -> None:
         ({"pattern.vanes.bodies": ["wane"]}, '"wane" is no body.*did you mean'),
         (
             {"pattern.more.count": 2, "pattern.more.bodies": ["vane"], "pattern.more.step": "1, 0, 0 mm"},
-            "is no body",
+            "overlap: both repeat vane",
         ),
         (
             {

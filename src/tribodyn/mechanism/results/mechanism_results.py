@@ -9,6 +9,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.results import readings
+from tribodyn.mechanism.results.copies import COPIES
 from tribodyn.mechanism.results.joint_numbers import DRIVEN, OUTSIDE, pair
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results import reading
@@ -187,6 +188,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "Largest wear depth of any joint.",
         lambda d: reading.peak(reading.column(d, "wear_depth")) * 1e9,
     ),
+    **COPIES,
     **WEAR_NUMBERS,
     "cycle_scatter_percent": KeyResult(
         "Scatter of the cycles",
@@ -206,6 +208,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
 }
 KEY_NUMBERS: Final = (
     "frequency_Hz_*",
+    "copies_*",
     "error_sustained_*",
     "joint_force_sustained_N",
     "peak_pressure_MPa",

@@ -1,5 +1,6 @@
 """Charts over time of any mechanism, and the motion of shafts between the rows of a result."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -9,6 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.results.copies import apart, copies_of
 from tribodyn.mechanism.results.readings import WHOLE, offset, sizes
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
@@ -127,7 +129,21 @@ def output_errors(dataset: xr.Dataset) -> list[Panel]:
     for unit, (_, shown, scale) in ERROR_UNITS.items():
         chosen = np.flatnonzero(units == unit)
         panels.append((f"error [{shown}]", curves([names[k] for k in chosen], scale * error[:, chosen])))
-    return _panels(*panels)
+    return _panels(*_of_copies(dataset), *panels)
+
+
+def _of_copies(dataset: xr.Dataset) -> Iterator[tuple[str, list[ChartCurve]]]:
+    """Yield a panel of each repeated output: band, mean, and the copy furthest from the mean."""
+    for name, numbers in copies_of(dataset).items():
+        unit = ERROR_UNITS[str(dataset["output_unit"].values[numbers[0]])]
+        error = unit.scale * dataset["output_error"].values[:, numbers]
+        worst = int(np.argmax(np.mean(apart(error) ** 2, axis=0)))
+        lines = {"largest": error.max(axis=1), "mean": error.mean(axis=1), "least": error.min(axis=1)}
+        lines[f"{name}[{worst + 1}]"] = error[:, worst]
+        drawn = [
+            ChartCurve(label, line, *look) for (label, line), look in zip(lines.items(), LOOKS, strict=False)
+        ]
+        yield f"error of {name}\nover copies [{unit.shown}]", drawn
 
 
 def error_estimates(dataset: xr.Dataset) -> list[Panel]:

@@ -1,0 +1,66 @@
+"""The ring of vanes: equal vanes, one of twice the clearance, and the pull of N vanes against that of one."""
+
+from typing import Final
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import tribodyn as td
+from tribodyn.cases.case import Case
+from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.descriptor import TEMPLATES
+from tribodyn.mechanisms.catalogue import parse_case
+from tribodyn.mechanisms.results import summarise
+
+RADIAL: Final = "joints.trunnion.clearance.radial"
+RIGID: Final = 'elastic = "beam"\n'
+
+
+def ring(count: int, *, rigid: bool = True, **changes: object) -> Case:
+    """Return the template with so many equal vanes for a part of the stroke, without gravity."""
+    text = TEMPLATES["vsv-ring"].text
+    play = text[text.index("[scatter.play]") : text.index("[bodies.ring]")]
+    case = parse_case(text.replace(play, "").replace(RIGID, "" if rigid else RIGID), "test")
+    given = {"pattern.vanes.count": count, "run.duration": "1 s", "run.output_interval": "20 ms", **changes}
+    return case.replace(given)
+
+
+def late(found: xr.Dataset, name: str) -> FloatArray:
+    """Return a variable once the start has died away, at times that all runs share, shape (n, …)."""
+    return np.asarray(found[name].interp(time=np.linspace(0.4, 1.0, 31)).values)
+
+
+@pytest.fixture(scope="module")
+def equal() -> xr.Dataset:
+    return td.simulate(ring(4))
+
+
+def test_equal_vanes_do_not_differ(equal: xr.Dataset) -> None:
+    assert equal.attrs["failure"] == ""
+    found = summarise(equal)
+    error = np.degrees(np.abs(equal["output_error"].values)).max()
+    assert found["copies_spread_max_deg"] < 1e-3 * error
+    assert found["copies_sigma_deg"] < 1e-3 * error
+
+
+def test_the_pull_of_vanes_is_that_of_one_times_their_number(equal: xr.Dataset) -> None:
+    """Two vanes and four: forces of the ring's own inertia cancel from the difference."""
+    two = td.simulate(ring(2))
+    pull = [np.abs(late(found, "element_force")[:, 0]) for found in (two, equal)]
+    assert pull[1] == pytest.approx(2.0 * pull[0], rel=2e-2)
+
+
+def test_a_vane_of_twice_the_clearance_is_the_worst_copy(equal: xr.Dataset) -> None:
+    loose = td.simulate(ring(4, **{"joints.trunnion[3].clearance.radial": "40 um"}))
+    assert summarise(loose)["copies_worst"] == 3
+    moved = np.abs(late(loose, "output_error") - late(equal, "output_error")).max(axis=0)
+    assert np.max(np.delete(moved, 2)) < 0.1 * moved[2]
+
+
+def test_elastic_levers_add_their_bending(equal: xr.Dataset) -> None:
+    found = td.simulate(ring(4, rigid=False))
+    assert found.attrs["failure"] == ""
+    error = [np.abs(late(one, "output_error")).mean() for one in (equal, found)]
+    bending = 0.84 * 50e-3 / (3.0 * 110e9 * 3e-3 * 10e-3**3 / 12.0)
+    assert error[1] - error[0] == pytest.approx(bending, rel=0.2)
