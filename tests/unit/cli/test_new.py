@@ -36,7 +36,7 @@ def test_an_unknown_template_is_refused(capsys: pytest.CaptureFixture[str]) -> N
     assert 'did you mean "slider-crank"?' in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", [name for name in templates() if name.startswith(("vsv", "journal"))])
+@pytest.mark.parametrize("name", [name for name in templates() if name in built_in()])
 def test_cases_without_a_file_of_their_own_are_templates_too(name: str, tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(template(name), encoding="utf-8")
