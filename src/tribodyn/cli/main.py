@@ -52,7 +52,20 @@ class _Modules(Mapping[str, Command]):
 
 
 COMMANDS: Final = _Modules(
-    *("run", "cases", "new", "show", "check", "sweep", "find", "contributions", "fit", "workbench"),
+    *(
+        "run",
+        "cases",
+        "new",
+        "show",
+        "check",
+        "sweep",
+        "find",
+        "slopes",
+        "allocate",
+        "contributions",
+        "fit",
+        "workbench",
+    ),
     *("report", "export", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
     "completion",
 )

@@ -5,6 +5,7 @@ from tribodyn.studies.contributions import OutputShares, contributions
 from tribodyn.studies.plan import Sampling, SweepPlan, make_plan
 from tribodyn.studies.sampling import DISTRIBUTIONS, SAMPLERS
 from tribodyn.studies.search import find
+from tribodyn.studies.slopes import Slope, slopes
 from tribodyn.studies.statistics import sensitivities, shares, statistics
 from tribodyn.studies.sweep import Arrival, Means, Watcher, run, sweep
 
@@ -15,6 +16,7 @@ __all__ = [
     "Means",
     "OutputShares",
     "Sampling",
+    "Slope",
     "SweepPlan",
     "Tls",
     "Watcher",
@@ -24,6 +26,7 @@ __all__ = [
     "run",
     "sensitivities",
     "shares",
+    "slopes",
     "statistics",
     "sweep",
 ]

@@ -315,13 +315,14 @@ def key_range(case: Case, path: str, values: str) -> tuple[Key, float, float]:
             key=key.path,
             source=SOURCE,
         )
-    low, high = (_read(key, text) for text in with_shared_unit([end.strip() for end in ends]))
+    low, high = (read_number(key, text) for text in with_shared_unit([end.strip() for end in ends]))
     if not low < high:
         raise InputError(f"{as_given(values)}; the range must go upwards", key=key.path, source=SOURCE)
     return key, low, high
 
 
-def _read(key: Key, text: str) -> float:
+def read_number(key: Key, text: str) -> float:
+    """Return a value of a key as a user wrote it [SI]."""
     value: Value = read_entry(key, Entry(text, SOURCE, text=True))
     assert isinstance(value, float)
     return value

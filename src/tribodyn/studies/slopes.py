@@ -1,0 +1,224 @@
+"""Slopes of key results: central differences over a ladder of steps, and the plateau on which they agree.
+
+Too short a step drowns in the error of the time integration, too long a one sees the curvature. A slope is
+given where neighbouring steps agree; a largest value over time often has none, and is told so.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import xarray as xr
+
+from tribodyn.cases import Case, Key
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.core.quoting import as_given
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.studies.plan import Axis, SweepPlan, plan_of, varied_key
+from tribodyn.studies.search import limit, no_run_has, read_number
+from tribodyn.studies.sweep import Means, Watcher, run
+from tribodyn.studies.variation import SOURCE
+
+LADDER: Final = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2)
+"""Steps, as shares of a value."""
+AGREE: Final = 0.05
+"""Largest difference of slopes on a plateau, as a share of their median."""
+_AT_LEAST: Final = 3
+"""Steps of a plateau."""
+_DIGITS: Final = 9
+"""Digits of the values that are tried."""
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Change of a number with a key.
+
+    Attributes
+    ----------
+    path, number
+        The key, and the name of the number in ``summary.json``.
+    value
+        Slope in the unit of the number over SI units of the key; NaN where steps do not agree.
+    spread
+        Largest difference from it on the plateau, in its unit.
+    steps
+        Steps of the plateau, in SI units of the key; empty where there is none.
+    tried
+        Slope at each step of the ladder, shape (n_steps,).
+    relative
+        Change of the number in per cent for a change of the key by one per cent; NaN where one of them is 0.
+    """
+
+    path: str
+    number: str
+    value: float
+    spread: float
+    steps: tuple[float, ...]
+    tried: FloatArray
+    relative: float
+
+
+def slopes(
+    case: Case | str | Path,
+    keys: Sequence[str] | Mapping[str, str | None],
+    of: Sequence[str],
+    *,
+    directory: str | Path | None = None,
+    workers: int | None = None,
+    watcher: Watcher = Watcher(),
+) -> tuple[Slope, ...]:
+    """Return the slopes of key results over keys of a case.
+
+    Parameters
+    ----------
+    case
+        A case, the name of a built-in one, or a file.
+    keys
+        Dotted paths; with a path, the longest step may be given as text with its unit, else it is 5 % of
+        the value.
+    of
+        Names of key results.
+    directory
+        Where the runs are kept; what is there already is not computed again.
+    workers
+        Processes on this machine, by default one for each processor; 0 computes in this process.
+    watcher
+        Who hears of its progress, and may end it.
+
+    Returns
+    -------
+    tuple of Slope
+        Number by number, for each the keys in their order.
+
+    Raises
+    ------
+    InputError
+        There is no such key or number, a key is no quantity, or it is 0 and has no step.
+    TribodynError
+        A run failed.
+
+    Examples
+    --------
+    >>> from tribodyn.studies import slopes
+    >>> key = "joints.wrist.clearance.radial"
+    >>> [slope] = slopes("slider-crank", [key], ["error_rms_um_slider"])  # doctest: +SKIP
+    """
+    chosen = case if isinstance(case, Case) else load_case(case)
+    asked = keys if isinstance(keys, Mapping) else dict.fromkeys(keys)
+    names = [limit(f"{name}=0", chosen, "--of").name for name in of]
+    ladders = [_ladder(chosen, path, longest) for path, longest in asked.items()]
+    place = None if directory is None else Path(directory)
+    found = run(_plan(chosen, ladders), place, Means(workers=workers, keep_results=False), watcher)
+    return tuple(slope for name in names for slope in _slopes_of(numbers_of(found, name), name, ladders))
+
+
+def numbers_of(dataset: xr.Dataset, name: str) -> FloatArray:
+    """Return a key result at all points of a sweep, shape (n_points,).
+
+    Raises
+    ------
+    TribodynError
+        A point failed, or has no such number.
+    """
+    for text in dataset["failure"].values.ravel().tolist():
+        if text:
+            raise TribodynError(f"a run failed: {text}")
+    if name not in dataset:
+        raise TribodynError(no_run_has(name, dataset))
+    numbers = np.asarray(dataset[name].values, dtype=np.float64).ravel()
+    if not np.isfinite(numbers).all():
+        raise TribodynError(f"not every run has {name}")
+    return numbers
+
+
+@dataclass(frozen=True)
+class _Ladder:
+    """A key, its value, and the values below and above it that are tried, SI, shape (n_steps,)."""
+
+    key: Key
+    value: float
+    below: FloatArray
+    above: FloatArray
+
+
+def _ladder(case: Case, path: str, longest: str | None) -> _Ladder:
+    key = varied_key(case, path)
+    value = case.at(key.path)
+    if key.kind not in ("quantity", "number") or not isinstance(value, float):
+        raise InputError(
+            "a slope needs a key with a number that the case states", key=key.path, source=SOURCE
+        )
+    if longest is None and value == 0.0:
+        raise InputError(
+            f"the value is 0, of which there are no shares; give the longest step, such as {key.path}=0.1 mm",
+            key=key.path,
+            source=SOURCE,
+        )
+    step = LADDER[-1] * abs(value) if longest is None else read_number(key, longest)
+    if not step > 0.0:
+        raise InputError(
+            f"{as_given(longest)}; the longest step must be above 0", key=key.path, source=SOURCE
+        )
+    steps = step * np.array(LADDER) / LADDER[-1]
+    below, above = (
+        np.array([float(f"{value + sign * one:.{_DIGITS}g}") for one in steps]) for sign in (-1, 1)
+    )
+    return _Ladder(key, value, below, above)
+
+
+def _plan(case: Case, ladders: Sequence[_Ladder]) -> SweepPlan:
+    """Return the plan of the runs: the case as it is, then of each key all values below and above."""
+    n = 2 * len(LADDER)
+    columns = {}
+    for k, one in enumerate(ladders):
+        values = np.full(1 + n * len(ladders), one.value)
+        values[1 + n * k : 1 + n * (k + 1)] = np.concatenate([one.below, one.above])
+        columns[one.key] = tuple(values.tolist())
+    return plan_of(case, (Axis("run", columns),))
+
+
+def _slopes_of(numbers: FloatArray, name: str, ladders: Sequence[_Ladder]) -> Iterator[Slope]:
+    middle, blocks = numbers[0], numbers[1:].reshape(len(ladders), 2, -1)
+    for one, (below, above) in zip(ladders, blocks, strict=True):
+        tried = (above - below) / (one.above - one.below)
+        first, last = plateau(tried)
+        chosen = tried[first:last]
+        value = float(np.median(chosen)) if chosen.size else math.nan
+        spread = float(np.max(np.abs(chosen - value))) if chosen.size else math.nan
+        relative = value * one.value / middle if middle and one.value else math.nan
+        steps = tuple((0.5 * (one.above - one.below)[first:last]).tolist())
+        yield Slope(one.key.path, name, value, spread, steps, tried, float(relative))
+
+
+def plateau(tried: FloatArray) -> tuple[int, int]:
+    """Return the longest run of neighbouring slopes that agree, the one of least spread among equally long.
+
+    Parameters
+    ----------
+    tried
+        Slopes by step, shape (n_steps,).
+
+    Returns
+    -------
+    tuple of int
+        Its first place, and the one behind its last; equal where fewer than three agree.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> plateau(np.array([7.0, 2.5, 2.01, 2.0, 2.02, 3.0]))
+    (2, 5)
+    """
+    runs = ((i, j) for i in range(tried.size) for j in range(i + _AT_LEAST, tried.size + 1))
+    good = [(i, j) for i, j in runs if _spread(tried[i:j]) <= AGREE]
+    return min(good, key=lambda run: (run[0] - run[1], _spread(tried[slice(*run)])), default=(0, 0))
+
+
+def _spread(slopes: FloatArray) -> float:
+    """Return the largest difference of slopes as a share of their median."""
+    difference, median = float(np.ptp(slopes)), abs(float(np.median(slopes)))
+    return difference / median if median else math.inf if difference else 0.0
