@@ -66,8 +66,8 @@ COMMANDS: Final = _Modules(
         "fit",
         "workbench",
     ),
-    *("report", "export", "compare", "reproduce", "validate", "surface", "materials", "stribeck", "bounce"),
-    "completion",
+    *("report", "export", "compare", "reproduce", "validate", "surface", "materials", "stribeck"),
+    *("bounce", "completion"),
 )
 """All sub-commands: a new one is a module in ``commands`` and a name here."""
 

@@ -1,5 +1,6 @@
 """Studies: one case at many values of its parameters, on processes of this machine or on a cluster."""
 
+from tribodyn.studies.allocation import Allocation, allocate
 from tribodyn.studies.cluster import Tls
 from tribodyn.studies.contributions import OutputShares, contributions
 from tribodyn.studies.plan import Sampling, SweepPlan, make_plan
@@ -12,6 +13,7 @@ from tribodyn.studies.sweep import Arrival, Means, Watcher, run, sweep
 __all__ = [
     "DISTRIBUTIONS",
     "SAMPLERS",
+    "Allocation",
     "Arrival",
     "Means",
     "OutputShares",
@@ -20,6 +22,7 @@ __all__ = [
     "SweepPlan",
     "Tls",
     "Watcher",
+    "allocate",
     "contributions",
     "find",
     "make_plan",

@@ -33,10 +33,9 @@ from tribodyn.results.store import POINTS
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of
-from tribodyn.studies.sweep import Means, Watcher, run
+from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 
 _SWITCH: Final = "joints.{}.clearance.ideal"
-_SILENT: Final = Watcher()
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class OutputShares:
 
 
 def contributions(
-    case: Case | str | Path, *, directory: str | Path, workers: int | None = None, watcher: Watcher = _SILENT
+    case: Case | str | Path, *, directory: str | Path, workers: int | None = None, watcher: Watcher = SILENT
 ) -> tuple[OutputShares, ...]:
     """Return the parts of the error of each output of a case by its joints.
 

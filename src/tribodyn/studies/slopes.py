@@ -20,7 +20,7 @@ from tribodyn.core.quoting import as_given
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of, varied_key
 from tribodyn.studies.search import limit, no_run_has, read_number
-from tribodyn.studies.sweep import Means, Watcher, run
+from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 from tribodyn.studies.variation import SOURCE
 
 LADDER: Final = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2)
@@ -69,7 +69,7 @@ def slopes(
     *,
     directory: str | Path | None = None,
     workers: int | None = None,
-    watcher: Watcher = Watcher(),
+    watcher: Watcher = SILENT,
 ) -> tuple[Slope, ...]:
     """Return the slopes of key results over keys of a case.
 
@@ -161,7 +161,7 @@ def _ladder(case: Case, path: str, longest: str | None) -> _Ladder:
     step = LADDER[-1] * abs(value) if longest is None else read_number(key, longest)
     if not step > 0.0:
         raise InputError(
-            f"{as_given(longest)}; the longest step must be above 0", key=key.path, source=SOURCE
+            f"{as_given(str(longest))}; the longest step must be above 0", key=key.path, source=SOURCE
         )
     steps = step * np.array(LADDER) / LADDER[-1]
     below, above = (

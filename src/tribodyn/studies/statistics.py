@@ -100,11 +100,12 @@ def shares(dataset: xr.Dataset, limits: Mapping[str, float]) -> dict[str, Share]
         The sweep has no such number.
     """
     return {
-        name: _share(dataset[name].values, limit, POINT in dataset.dims) for name, limit in limits.items()
+        name: share_of(dataset[name].values, limit, POINT in dataset.dims) for name, limit in limits.items()
     }
 
 
-def _share(values: FloatArray, limit: float, sampled: bool) -> Share:
+def share_of(values: FloatArray, limit: float, sampled: bool) -> Share:
+    """Return the share of values that do not exceed a limit, with an interval where they are samples."""
     from scipy.stats import binomtest
 
     known = values[np.isfinite(values)]

@@ -147,6 +147,10 @@ class Watcher:
     note: Callable[[str], None] = _nothing
 
 
+SILENT: Final = Watcher()
+"""A listener that hears nothing and ends nothing."""
+
+
 def sweep(
     case: Case | str | Path,
     vary: Mapping[str, Asked],

@@ -1,0 +1,68 @@
+"""Slopes of key results over keys of a case."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.cli.main import main
+from tribodyn.core.errors import InputError
+from tribodyn.studies.slopes import plateau, slopes
+
+CASE = "slider-crank"
+
+
+def test_longest_plateau_of_least_spread_is_taken() -> None:
+    assert plateau(np.array([7.0, 2.5, 2.01, 2.0, 2.02, 3.0])) == (2, 5)
+    assert plateau(np.array([1.0, 1.0, 1.0, 1.04, 1.04, 1.04])) == (0, 6)
+    assert plateau(np.array([1.0, -1.0, 2.0, -3.0, 4.0, -9.0])) == (0, 0)
+    assert plateau(np.zeros(6)) == (0, 6)
+
+
+def test_forces_of_a_mechanism_without_loads_are_homogeneous_in_its_masses(tmp_path: Path) -> None:
+    """Euler: the relative slopes over all masses and moments of inertia add up to 1."""
+    case = td.load_case(CASE).replace({"run.analysis": "kinematic"})
+    # Bodies turn about one axis only, the crank and the rod.
+    keys = [f"bodies.{name}.mass" for name in case.bodies]
+    keys += [f"bodies.{name}.inertia.{axis}" for name in ("crank", "rod") for axis in "yz"]
+    found = slopes(case, keys, ["drive_moment_rms_Nm", "force_mean_N_main"], directory=tmp_path, workers=0)
+    for number in ("drive_moment_rms_Nm", "force_mean_N_main"):
+        assert sum(one.relative for one in found if one.number == number) == pytest.approx(1.0, rel=1e-4)
+
+
+def test_a_key_without_effect_has_slope_zero_and_a_key_at_zero_needs_a_step(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = [
+        "slopes",
+        CASE,
+        "--set",
+        "run.analysis=kinematic",
+        "--of",
+        "drive_moment_max_Nm",
+        "--workers",
+        "0",
+    ]
+    place = ["-o", str(tmp_path)]
+    assert main([*asked, "--vary", "bodies.slider.centre.z=1 mm", *place]) == 0
+    assert "bodies.slider.centre.z" in capsys.readouterr().out
+    assert main([*asked, "--vary", "bodies.slider.centre.z", *place]) == 2
+    assert "the value is 0" in capsys.readouterr().err
+    assert main([*asked, "--vary", "run.cycles", *place]) == 2
+    assert "states no number here" in capsys.readouterr().err
+
+
+def test_a_number_that_jumps_has_no_slope(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The largest value of an impact may follow the tolerance more than the key."""
+    monkeypatch.setattr(
+        "tribodyn.studies.slopes.numbers_of", lambda dataset, name: np.tile([0.0, 3.0, -5.0], 5)[:13]
+    )
+    monkeypatch.setattr("tribodyn.studies.slopes.run", lambda *_: None)
+    [one] = slopes(CASE, ["joints.wrist.clearance.radial"], ["force_max_N_wrist"])
+    assert np.isnan(one.value)
+    assert one.steps == ()
+    with pytest.raises(InputError, match="not a key result"):
+        slopes(CASE, ["joints.wrist.clearance.radial"], ["nonsense"])
