@@ -3,10 +3,10 @@
 from tribodyn.studies.allocation import Allocation, allocate
 from tribodyn.studies.cluster import Tls
 from tribodyn.studies.contributions import OutputShares, contributions
+from tribodyn.studies.differences import Slope, slopes
 from tribodyn.studies.plan import Sampling, SweepPlan, make_plan
 from tribodyn.studies.sampling import DISTRIBUTIONS, SAMPLERS
 from tribodyn.studies.search import find
-from tribodyn.studies.slopes import Slope, slopes
 from tribodyn.studies.statistics import sensitivities, shares, statistics
 from tribodyn.studies.sweep import Arrival, Means, Watcher, run, sweep
 

@@ -20,16 +20,16 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.studies.choices import Choice, QuadraticModel, Scattering, are_kept
+from tribodyn.studies.differences import numbers_of
 from tribodyn.studies.plan import Axis, plan_of
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.search import Limit, limit
-from tribodyn.studies.slopes import numbers_of
 from tribodyn.studies.statistics import Share, share_of
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 from tribodyn.studies.tolerances import Tolerance, read_tolerances
 
 FRONT: Final = (0.9, 0.95, 0.99, 0.997, 0.999)
-"""Probabilities for which the least cost is told beside the one asked for."""
+"""Probabilities for which the least cost is given beside the one asked for."""
 _ROUNDS: Final = 3
 """Times that the quadratics are made, with all that has been simulated."""
 _DIGITS: Final = 9

@@ -119,7 +119,7 @@ class QuadraticModel:
             if missed > _MISSED:
                 raise TribodynError(
                     f"{one.name} follows no quadratic of the keys within these tolerances: {missed:.0%} of "
-                    "its spread is missed; `tribodyn slopes` tells where a number has a slope"
+                    "its spread is missed; `tribodyn slopes` shows where a number has a slope"
                 )
         self._drawn = scattering.draw("sobol", _DRAWN, 1)
         self._rest = np.random.default_rng(2).standard_normal((_DRAWN, len(limits))) * noise
@@ -227,7 +227,7 @@ class QuadraticModel:
             method="SLSQP",
             bounds=list(zip(finest.tolist(), widest.tolist(), strict=True)),
             constraints={"type": "ineq", "fun": reserve},
-            options={"eps": 1e-3, "maxiter": 200, "ftol": 1e-8},
+            options={"eps": 1e-2, "maxiter": 200, "ftol": 1e-9},
         ).x
         return choice(_last_within(reserve, finest, found))
 

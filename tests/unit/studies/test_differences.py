@@ -8,7 +8,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
-from tribodyn.studies.slopes import plateau, slopes
+from tribodyn.studies.differences import plateau, slopes
 
 CASE = "slider-crank"
 
@@ -49,7 +49,7 @@ def test_a_key_without_effect_has_slope_zero_and_a_key_at_zero_needs_a_step(
     assert "bodies.slider.centre.z" in capsys.readouterr().out
     assert main([*asked, "--vary", "bodies.slider.centre.z", *place]) == 2
     assert "the value is 0" in capsys.readouterr().err
-    assert main([*asked, "--vary", "run.cycles", *place]) == 2
+    assert main([*asked, "--vary", "run.analysis", *place]) == 2
     assert "states no number here" in capsys.readouterr().err
 
 
@@ -58,9 +58,9 @@ def test_a_number_that_jumps_has_no_slope(
 ) -> None:
     """The largest value of an impact may follow the tolerance more than the key."""
     monkeypatch.setattr(
-        "tribodyn.studies.slopes.numbers_of", lambda dataset, name: np.tile([0.0, 3.0, -5.0], 5)[:13]
+        "tribodyn.studies.differences.numbers_of", lambda dataset, name: np.tile([0.0, 3.0, -5.0], 5)[:13]
     )
-    monkeypatch.setattr("tribodyn.studies.slopes.run", lambda *_: None)
+    monkeypatch.setattr("tribodyn.studies.differences.run", lambda *_: None)
     [one] = slopes(CASE, ["joints.wrist.clearance.radial"], ["force_max_N_wrist"])
     assert np.isnan(one.value)
     assert one.steps == ()

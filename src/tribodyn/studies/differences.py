@@ -1,7 +1,7 @@
 """Slopes of key results: central differences over a ladder of steps, and the plateau on which they agree.
 
 Too short a step drowns in the error of the time integration, too long a one sees the curvature. A slope is
-given where neighbouring steps agree; a largest value over time often has none, and is told so.
+given where neighbouring steps agree; a largest value over time often has none.
 """
 
 import math
@@ -29,6 +29,8 @@ AGREE: Final = 0.05
 """Largest difference of slopes on a plateau, as a share of their median."""
 _AT_LEAST: Final = 3
 """Steps of a plateau."""
+_NOTHING: Final = 1e-9
+"""Relative change of a number up to which a key has no effect."""
 _DIGITS: Final = 9
 """Digits of the values that are tried."""
 
@@ -185,9 +187,10 @@ def _slopes_of(numbers: FloatArray, name: str, ladders: Sequence[_Ladder]) -> It
     middle, blocks = numbers[0], numbers[1:].reshape(len(ladders), 2, -1)
     for one, (below, above) in zip(ladders, blocks, strict=True):
         tried = (above - below) / (one.above - one.below)
-        first, last = plateau(tried)
+        without = np.max(np.abs(above - below)) <= _NOTHING * abs(middle)
+        first, last = (0, tried.size) if without else plateau(tried)
         chosen = tried[first:last]
-        value = float(np.median(chosen)) if chosen.size else math.nan
+        value = 0.0 if without else float(np.median(chosen)) if chosen.size else math.nan
         spread = float(np.max(np.abs(chosen - value))) if chosen.size else math.nan
         relative = value * one.value / middle if middle and one.value else math.nan
         steps = tuple((0.5 * (one.above - one.below)[first:last]).tolist())
