@@ -100,6 +100,11 @@ def allocate(
     watcher
         Who hears of its progress, and may end it.
 
+    Returns
+    -------
+    Allocation
+        The choice with its cost, and the simulations that confirm it.
+
     Raises
     ------
     InputError

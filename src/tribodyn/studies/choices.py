@@ -79,7 +79,7 @@ class Scattering:
 
 
 def are_kept(numbers: FloatArray, limits: Sequence[Limit]) -> NDArray[np.bool_]:
-    """Return which rows of numbers, shape (n, n_limits), keep all limits."""
+    """Return the mask of rows of numbers, shape (n, n_limits), that keep all limits."""
     return np.asarray(np.all(_excess(numbers, limits) <= 0.0, axis=1))
 
 

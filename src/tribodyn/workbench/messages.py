@@ -90,7 +90,7 @@ class Sweep:
 
 
 @dataclass(frozen=True)
-class Slope:
+class SlopeRequest:
     """Runs close to a value of one key."""
 
     number: int
@@ -98,7 +98,7 @@ class Slope:
     values: Values
 
 
-Message: TypeAlias = RunRequest | Drawn | Cancel | Pin | Sweep | Slope
+Message: TypeAlias = RunRequest | Drawn | Cancel | Pin | Sweep | SlopeRequest
 
 
 def parsed(text: str | bytes) -> Message:
@@ -172,7 +172,7 @@ _KINDS: Final[dict[str, tuple[frozenset[str], Callable[[Mapping[str, Any]], Mess
     "sweep": (frozenset({"number", "key", "values", "from", "to", "points"}), _sweep),
     "slope": (
         frozenset({"number", "key", "values"}),
-        lambda said: Slope(_number(said), _text(said, "key"), _values(said)),
+        lambda said: SlopeRequest(_number(said), _text(said, "key"), _values(said)),
     ),
 }
 """Fields and constructors of all messages, by their type."""

@@ -25,7 +25,7 @@ from tribodyn.workbench.messages import (
     Message,
     Pin,
     RunRequest,
-    Slope,
+    SlopeRequest,
     Sweep,
     Values,
     parsed,
@@ -137,7 +137,7 @@ class PageSession:
                 self._cancel(number)
             case Pin(run, kept):
                 self._pin(run, kept)
-            case Sweep() | Slope():
+            case Sweep() | SlopeRequest():
                 self._begin(self._begin_series(said))
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
@@ -323,7 +323,7 @@ class PageSession:
             state.pool.stop(job)
             raise
 
-    async def _begin_series(self, said: Sweep | Slope) -> None:
+    async def _begin_series(self, said: Sweep | SlopeRequest) -> None:
         self.asked[type(said)] = said.number
         if (old := self.series.pop(type(said), None)) is not None:
             old.cancel()

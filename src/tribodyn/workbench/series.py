@@ -15,7 +15,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.results.summary import EFFORT
 from tribodyn.workbench import messages
 from tribodyn.workbench.controls import shown_number, text
-from tribodyn.workbench.messages import Slope, Sweep, Values
+from tribodyn.workbench.messages import SlopeRequest, Sweep, Values
 from tribodyn.workbench.server_state import ServerState, in_words, refuse_rows
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.worker_pool import Failed, GivenUp
@@ -198,7 +198,7 @@ def _written(key: Key, number: float) -> str:
     return f"{float(f'{number:.{_DIGITS}g}')!r} {key.unit}".strip()
 
 
-def slope_of(state: ServerState, origin: Origin, asked: Slope) -> SeriesPlan:
+def slope_of(state: ServerState, origin: Origin, asked: SlopeRequest) -> SeriesPlan:
     """Plan to find the slope at the present value of a key.
 
     Raises
