@@ -138,7 +138,7 @@ def test_a_number_that_jumps_is_refused(linear: Callable[..., None], tmp_path: P
         (({"IT99": 1.0},), "grades", 'key = "joints.wrist.clearance.radial"\nsize = "2 mm"', "allowed: IT5"),
         (({"IT7": 1.0},), "grades", 'size = "2 mm"', "grades are of lengths"),
         (({"80 g": -1.0},), "widths", "", "allowed: a number above 0"),
-        (({"80 g": 1.0},), "widths", 'law = "normall"', "allowed: normal, uniform"),
+        (({"80 g": 1.0},), "widths", 'law = "nonsense"', "allowed: normal, uniform"),
         (({"80 g": 1.0},), "width", "", "allowed: key, law"),
         (({"80 mm": 1.0},), "widths", "", "'mm' is not a unit of mass"),
     ],
