@@ -9,6 +9,7 @@ import pytest
 import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
 from tribodyn.core.errors import InputError
+from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanisms.catalogue import parse_case
 
 RING: Final = """
@@ -144,6 +145,15 @@ force = { positions = "-1, 1 mm", values = "1, -1 N" }
 
 
 def test_a_written_case_reads_back(ring: Case) -> None:
+    written = ring.to_toml()
+    assert parse_case(written, "test") == ring
+    with pytest.raises(InputError, match="written with its 3 copies"):
+        parse_case(written, "test").replace({"pattern.vanes.count": 9})
+
+
+def test_a_written_case_with_elastic_copies_reads_back() -> None:
+    """Copies are written as their nodes; figures and reports of a result read the case again."""
+    ring = parse_case(TEMPLATES["vsv-ring"].text, "test")
     assert parse_case(ring.to_toml(), "test") == ring
 
 

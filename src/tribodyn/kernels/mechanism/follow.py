@@ -7,7 +7,7 @@ from tribodyn.kernels.actions import Signals
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, TURNING, Now, Parts, Pattern
-from tribodyn.kernels.mechanism.redundancy import choose_rows
+from tribodyn.kernels.mechanism.redundancy import SMALL, choose_rows
 from tribodyn.kernels.mechanism.solution import (
     close,
     correct_velocities,
@@ -53,13 +53,16 @@ def follow(
     motion
         Is filled with states of the bodies, angular velocities in global axes, shape (n_t, 13 n_bodies).
     """
+    wait = 0
     for k in range(first, times.size):
         kinematics(parts, now, signals, times[k])
         mark_angles(now.couplings)
         if not largest_residual(parts, now, parts.constants.size) <= most:
             return k
-        if parts.constants.rank < parts.constants.n_rows:
+        if parts.constants.rank < parts.constants.n_rows and wait <= 0:
             choose_rows(parts, now, matrix)
+            wait = 1 + (parts.constants.n_rows // SMALL) ** 3
+        wait -= 1
         close(parts, now, signals, pattern, blocks, times[k])
         if not largest_residual(parts, now, parts.constants.size) <= closed:
             return k

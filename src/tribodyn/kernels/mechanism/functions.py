@@ -31,13 +31,11 @@ from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
 from tribodyn.kernels.mechanism.law import remember
 from tribodyn.kernels.mechanism.newton import factorise, fill_entries, solve
 from tribodyn.kernels.mechanism.observe import fill_row, watch
-from tribodyn.kernels.mechanism.redundancy import choose_rows
+from tribodyn.kernels.mechanism.redundancy import SMALL, choose_rows
 from tribodyn.kernels.mechanism.solution import accelerations, mark_angles, settle
 
 BEFORE_KINK: Final = 1.0e-9
 """Part of a segment by which its pieces end before the kink."""
-SMALL: Final = 48
-"""Number of rows up to which dependent ones are looked for after every step."""
 
 
 @entry

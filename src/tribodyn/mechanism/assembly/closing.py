@@ -18,8 +18,7 @@ from tribodyn.kernels.mechanism.bodies import move, place
 from tribodyn.kernels.mechanism.data import ANGLE, DIRECTION, NONE, POSITION, MechanismData, Parts
 from tribodyn.kernels.mechanism.equations import ROUNDS
 from tribodyn.kernels.mechanism.follow import follow
-from tribodyn.kernels.mechanism.functions import SMALL
-from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
+from tribodyn.kernels.mechanism.redundancy import SMALL, choose_rows, row_scale
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT, factors, null_space, svd, with_unit_rows
 from tribodyn.mechanism.assembly.odd_axes import odd_axes
 from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError

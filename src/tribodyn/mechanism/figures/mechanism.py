@@ -17,6 +17,8 @@ from tribodyn.mechanism.sections.mechanism import at_frames
 TITLE: Final = "The mechanism in its cycle"
 _NAMED: Final = 16
 """Bodies up to which these and their joints are named: names of more would lie on each other."""
+_NODE: Final = ":"
+"""Part of the names of nodes of an elastic body and of its pieces, which are not named."""
 _AWAY: Final = 9.0
 """Distance of a name from what it names [pt]."""
 _CLOSE: Final = 0.1
@@ -76,7 +78,7 @@ def draw_at(
         for point in points if len(points) > 2 else points[:1]:
             other = hub if len(points) > 2 else points[1]
             axes.plot(*np.array([other, point]).T, color=colour, linewidth=1.8 if colour == INK else 1.0)
-        if colour == INK and len(drawn.bodies) <= _NAMED:
+        if colour == INK and len(drawn.bodies) <= _NAMED and _NODE not in drawn.bodies[body]:
             centre = plane @ (MM * position.mean(axis=0))
             _name(axes, drawn.bodies[body], hub, _beside(points, hub - centre), GREY)
 
@@ -123,8 +125,8 @@ def draw_joints(
     for (x, y), marks in there.items():
         rim = VERMILION if any(mark.real for mark in marks) else INK
         axes.plot(x, y, "o", ms=7, mfc="white", mec=rim, mew=1.4, zorder=4)
-        if len(drawn.bodies) <= _NAMED:
-            names = ", ".join(mark.name for mark in marks)
+        names = ", ".join(mark.name for mark in marks if _NODE not in mark.name)
+        if names and len(drawn.bodies) <= _NAMED:
             place = np.array([x, y])
             taken = any(np.hypot(*(place - other)) < near for other in named)
             _name(axes, names, place, np.array([0.7, 2.2 if taken else 1.0]), INK)

@@ -26,6 +26,7 @@ from tribodyn.mechanism.model.parts import POINT
 PATTERN, SCATTER = "pattern", "scatter"
 _SAME: Final = 1.0e-9
 """Part of a turn up to which two copies are at one place."""
+_MOST_COPIES: Final = 1000
 _OF_JOINTS: Final = ("joint", "joints", "along", "follows")
 _OF_BODIES: Final = ("between", "body", "reference", "socket")
 """Keys that name joints, and bodies."""
@@ -50,7 +51,9 @@ class PatternKeys(NamedGroup):
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("about.axis", "step"),)
 
-    count: int = count(None, "number of copies, the one as drawn included", "", ge=2, le=1000, example="40")
+    count: int = count(
+        None, "number of copies, the one as drawn included", "", ge=2, le=_MOST_COPIES, example="40"
+    )
     bodies: tuple[str, ...] = names("the bodies that are repeated", "", length=0, example='["vane", "lever"]')
     about: AboutKeys | None = None
     step: Vector | None = vector(
@@ -177,8 +180,15 @@ def with_copies(
             both = [body for body in pattern.bodies if other != label and body in before.bodies]
             words = f"the patterns {other} and {label} overlap: both repeat {', '.join(both)}"
             demand(not both, f"{PATTERN}.{label}.bodies", words)
-        if all(f"{body}[1]" in bodies and body not in bodies for body in pattern.bodies):
+        # An elastic body is written as its nodes.
+        written = {body.partition(":")[0] for body in bodies}
+        if all(f"{body}[1]" in written and body not in written for body in pattern.bodies):
             # These are the values of a case that was written with its copies.
+            held = sum(f"{pattern.bodies[0]}[{copy}]" in written for copy in range(1, _MOST_COPIES + 1))
+            words = (
+                f"this case was written with its {held} copies; their number is that of the file before it"
+            )
+            demand(held == pattern.count, f"{PATTERN}.{label}.count", words)
             continue
         for body in pattern.bodies:
             demand_known(body, bodies, f"{PATTERN}.{label}.bodies", "body")
