@@ -1,6 +1,6 @@
 """A mechanism of ideal joints that follows its drives: positions and velocities without forces."""
 
-from typing import Any
+from typing import Any, Final
 
 from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.kernels.actions import Signals
@@ -16,6 +16,9 @@ from tribodyn.kernels.mechanism.solution import (
     mark_angles,
 )
 from tribodyn.kernels.mechanism.vectors import turn
+
+_TRIES: Final = 3
+"""Times that joints are closed: dependent rows may open again by the first correction."""
 
 
 @entry
@@ -63,7 +66,10 @@ def follow(
             choose_rows(parts, now, matrix)
             wait = 1 + (parts.constants.n_rows // SMALL) ** 3
         wait -= 1
-        close(parts, now, signals, pattern, blocks, times[k])
+        for _ in range(_TRIES):
+            close(parts, now, signals, pattern, blocks, times[k])
+            if largest_residual(parts, now, parts.constants.size) <= closed:
+                break
         if not largest_residual(parts, now, parts.constants.size) <= closed:
             return k
         _stop(now.bodies)
