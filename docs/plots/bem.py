@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from tribodyn.contact import ContactLaw, SurfacePair, law
-from tribodyn.surfaces import SelfAffine, generate, moments
+from tribodyn.surfaces import SelfAffine, asperities, generate
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
@@ -77,7 +77,7 @@ def press(heights: np.ndarray, gradient: float) -> np.ndarray:
 
 def statistical_law(spectrum: SelfAffine, separation_from: str = "surface") -> ContactLaw:
     """Return the Greenwood-Williamson law of a spectrum, with the modulus of the boundary elements."""
-    found = moments(spectrum.moments(2))
+    found = asperities(spectrum.moments(2))
     pair = SurfacePair((1e30, MODULUS), (0.0, 0.0), (0.0, spectrum.sigma), 1e9, found.density, found.radius)
     return law("gw", pair, separation_from=separation_from)
 
@@ -91,7 +91,7 @@ def draw(target: Path) -> None:
         axes[0], SURFACES.items(), "os", ("C0", "C1"), strict=True
     ):
         solution, summits = solve(spectrum), statistical_law(spectrum)
-        alpha = moments(spectrum.moments(2)).bandwidth
+        alpha = asperities(spectrum.moments(2)).bandwidth
         curve.semilogy(solution.separation, solution.pressure, marker + colour, label="boundary elements")
         for label, dash, choice in (
             ("summits of the spectrum", "-", "surface"),

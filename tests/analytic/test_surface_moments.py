@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from tribodyn.surfaces import Scan, SelfAffine, analyse, generate, moments
+from tribodyn.surfaces import Scan, SelfAffine, analyse, asperities, generate, moments
 
 WAVE = 16e-6
 Q = 2.0 * math.pi / WAVE
@@ -115,7 +115,7 @@ def test_the_theory_counts_the_summits_there_are() -> None:
     around = [z[1 + i : 1023 + i, 1 + j : 1023 + j] for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
     summits = np.all([inside > other for other in around], axis=0)
     laplacian = sum(around[k] for k in (1, 3, 4, 6)) - 4.0 * inside
-    expected = moments(spectrum.moments(2))
+    expected = asperities(spectrum.moments(2))
     # Some thousand summits: a scatter of 3 % of their number and of 2 % of their spread. The grid, with
     # sixteen points to the shortest wave, takes 1 % of the curvature.
     assert summits.sum() / (1022e-6) ** 2 == pytest.approx(expected.density, rel=0.05)
@@ -139,7 +139,7 @@ def test_laws_with_the_mean_plane_of_the_surface_use_the_same_summits() -> None:
     from tribodyn.contact import SurfacePair, law
 
     spectrum = SelfAffine(1e-6, 0.8, roll_off=64e-6, shortest=8e-6)
-    found = moments(spectrum.moments(2))
+    found = asperities(spectrum.moments(2))
     pair = SurfacePair((1e9, 1e9), (0.3, 0.3), (0.0, spectrum.sigma), 1e9, found.density, found.radius)
     contact = law("gw", pair, separation_from="surface")
     # The published constants have four to five digits.

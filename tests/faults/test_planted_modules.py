@@ -56,6 +56,17 @@ REFUSED_BY = {
     "reproduce": ("reproduce", "missing"),
     "surface": ("surface", "missing.csv"),
     "contributions": ("contributions", "vsv"),
+    "slopes": ("slopes", "vsv", "--vary", "nothing", "--of", "tilt_max_mrad"),
+    "allocate": (
+        "allocate",
+        "vsv",
+        "--limit",
+        "tilt_max_mrad=2",
+        "--probability",
+        "0.9",
+        "--cost",
+        "missing",
+    ),
     "fit": ("fit", "vsv", "--data", "missing.csv", "--vary", "joint.clearance=1..2"),
 }
 """Commands with arguments that they refuse."""

@@ -67,7 +67,8 @@ COMMANDS: Final = _Modules(
         "workbench",
     ),
     *("report", "export", "compare", "reproduce", "validate", "surface", "materials", "stribeck"),
-    *("bounce", "completion"),
+    "bounce",
+    "completion",
 )
 """All sub-commands: a new one is a module in ``commands`` and a name here."""
 

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import resources
+from importlib.resources import files as files_of
 from typing import Final
 
 from tribodyn.cases.load import BuiltIn, flat
@@ -62,7 +62,7 @@ class Template:
 
 def _files(folder: str) -> dict[str, Template]:
     """Return the files of a folder beside this one, by their names without the ending."""
-    found = sorted(resources.files(__package__).joinpath(folder).iterdir(), key=lambda file: file.name)
+    found = sorted(files_of(__package__).joinpath(folder).iterdir(), key=lambda file: file.name)
     return {file.name.removesuffix(".toml"): Template(file.read_text(encoding="utf-8")) for file in found}
 
 

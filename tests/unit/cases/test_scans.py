@@ -9,7 +9,7 @@ import tribodyn as td
 from tribodyn.cases.scans import FOLLOWING
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import built_in, parse_case
-from tribodyn.surfaces import SelfAffine, Treatment, analyse, generate, moments, write_text
+from tribodyn.surfaces import SelfAffine, Treatment, analyse, asperities, generate, write_text
 
 SURFACE = "asperities.surface"
 BUSHING = generate(SelfAffine(1e-6, 0.8, 24e-6, 8e-6), (96, 128), 1e-6, 1)
@@ -81,7 +81,7 @@ def test_scans_of_both_surfaces_add_their_moments(folder: Path) -> None:
         {f"surfaces.{name}.surface": str(folder / files[name]) for name in each}
     )
     found = {name: analyse(scan) for name, scan in each.items()}
-    expected = moments(found["bushing"].moments + found["trunnion"].moments)
+    expected = asperities(found["bushing"].moments + found["trunnion"].moments)
     assert case.asperities.density == pytest.approx(expected.density, rel=1e-12)
     assert case.asperities.radius == pytest.approx(expected.radius, rel=1e-12)
     sigmas = (found["trunnion"].sigma, found["bushing"].sigma)

@@ -188,8 +188,8 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "Largest wear depth of any joint.",
         lambda d: reading.peak(reading.column(d, "wear_depth")) * 1e9,
     ),
-    **COPIES,
     **WEAR_NUMBERS,
+    **COPIES,
     "cycle_scatter_percent": KeyResult(
         "Scatter of the cycles",
         "%",
