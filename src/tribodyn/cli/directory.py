@@ -2,11 +2,12 @@
 
 import contextlib
 import os
+from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
-from tribodyn.cli.interrupt import on_leaving
+from tribodyn.cli.interrupt import Interruption, last_words, on_leaving
 from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
@@ -141,3 +142,13 @@ def _refused(path: str, reason: str) -> InputError:
         "written to, or a new name in one",
         key="--output",
     )
+
+
+@contextlib.contextmanager
+def kept_runs(command: str, args: Namespace) -> Iterator[tuple[Path, Interruption]]:
+    """Reserve the directory of a command that keeps finished runs, and listen for a request to stop."""
+    directory = OutputDirectory(f"{command}-{Path(args.case).stem}" if args.output is None else args.output)
+    message = "stopping; finished runs are kept; interrupt again to leave at once"
+    with directory.reserved(), Interruption(message) as stop:
+        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+        yield directory.path, stop

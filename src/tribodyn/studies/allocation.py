@@ -20,10 +20,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.studies.choices import Choice, QuadraticModel, Scattering, are_kept
-from tribodyn.studies.differences import numbers_of
+from tribodyn.studies.differences import DIGITS, numbers_of
 from tribodyn.studies.plan import Axis, plan_of
 from tribodyn.studies.sampling import SAMPLERS
-from tribodyn.studies.search import Limit, limit
+from tribodyn.studies.search import Limit, limit, readable
 from tribodyn.studies.statistics import Share, share_of
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 from tribodyn.studies.tolerances import Tolerance, read_tolerances
@@ -32,7 +32,6 @@ FRONT: Final = (0.9, 0.95, 0.99, 0.997, 0.999)
 """Probabilities for which the least cost is given beside the one asked for."""
 _ROUNDS: Final = 3
 """Times that the quadratics are made, with all that has been simulated."""
-_DIGITS: Final = 9
 
 
 @dataclass(frozen=True)
@@ -166,7 +165,7 @@ class _Runs:
         """Return the limited numbers at deviations of the keys, shape (n, n_limits)."""
         columns = {}
         for key, of_key in zip(self._keys, deviations.T, strict=True):
-            values = (float(f"{self._case.at(key.path) + one:.{_DIGITS}g}") for one in of_key)
+            values = (readable(self._case.at(key.path) + one, DIGITS) for one in of_key)
             columns[key] = tuple(values)
         found = run(plan_of(self._case, (Axis("run", columns),)), self._directory, means, watcher)
         numbers = np.column_stack([numbers_of(found, one.name) for one in self._limits])

@@ -16,7 +16,7 @@ import xarray as xr
 
 from tribodyn.cases import Key
 from tribodyn.cases.units import si_unit, to_si
-from tribodyn.core.errors import InputError
+from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.files import read_regular
 from tribodyn.core.quoting import brief
 from tribodyn.core.versions import version
@@ -97,6 +97,13 @@ class Archive:
 
 
 NOT_COMPUTED: Final = "not computed: the sweep was stopped before"
+
+
+def refuse_failures(dataset: xr.Dataset, words: str = "a run failed") -> None:
+    """Raise an error that says why a point of a merged sweep has no result, if one has none."""
+    for text in dataset["failure"].values.ravel().tolist():
+        if text:
+            raise TribodynError(f"{words}: {text}")
 
 
 def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:

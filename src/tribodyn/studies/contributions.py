@@ -32,6 +32,7 @@ from tribodyn.results.reading import column, settled
 from tribodyn.results.store import POINTS
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
+from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 
@@ -121,9 +122,7 @@ def contributions(
     plan, joints = _plan(chosen, switches), tuple(switches)
     folder = Path(directory)
     found = run(plan, folder, Means(workers=workers), watcher)
-    for text in found["failure"].values.ravel().tolist():
-        if text:
-            raise TribodynError(f"a run failed: {text}")
+    refuse_failures(found)
     whole, *alone = (read(folder / POINTS / point.name) for point in plan.points)
     ideal = _kinematic(chosen)
     shares = [_shares_of(str(output), whole, alone, joints, ideal) for output in whole["output"].values]

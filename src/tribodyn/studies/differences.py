@@ -18,8 +18,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of, varied_key
-from tribodyn.studies.search import limit, no_run_has, read_number
+from tribodyn.studies.search import matching, no_run_has, read_number, readable
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 from tribodyn.studies.variation import SOURCE
 
@@ -31,7 +32,7 @@ _AT_LEAST: Final = 3
 """Steps of a plateau."""
 _NOTHING: Final = 1e-9
 """Relative change of a number up to which a key has no effect."""
-_DIGITS: Final = 9
+DIGITS: Final = 9
 """Digits of the values that are tried."""
 
 
@@ -111,7 +112,7 @@ def slopes(
     """
     chosen = case if isinstance(case, Case) else load_case(case)
     asked = keys if isinstance(keys, Mapping) else dict.fromkeys(keys)
-    names = [limit(f"{name}=0", chosen, "--of").name for name in of]
+    names = [matching(name, chosen, "--of")[0] for name in of]
     ladders = [_ladder(chosen, path, longest) for path, longest in asked.items()]
     place = None if directory is None else Path(directory)
     found = run(_plan(chosen, ladders), place, Means(workers=workers, keep_results=False), watcher)
@@ -126,9 +127,7 @@ def numbers_of(dataset: xr.Dataset, name: str) -> FloatArray:
     TribodynError
         A point failed, or has no such number.
     """
-    for text in dataset["failure"].values.ravel().tolist():
-        if text:
-            raise TribodynError(f"a run failed: {text}")
+    refuse_failures(dataset)
     if name not in dataset:
         raise TribodynError(no_run_has(name, dataset))
     numbers = np.asarray(dataset[name].values, dtype=np.float64).ravel()
@@ -166,9 +165,7 @@ def _ladder(case: Case, path: str, longest: str | None) -> _Ladder:
             f"{as_given(str(longest))}; the longest step must be above 0", key=key.path, source=SOURCE
         )
     steps = step * np.array(LADDER) / LADDER[-1]
-    below, above = (
-        np.array([float(f"{value + sign * one:.{_DIGITS}g}") for one in steps]) for sign in (-1, 1)
-    )
+    below, above = (np.array([readable(value + sign * one, DIGITS) for one in steps]) for sign in (-1, 1))
     return _Ladder(key, value, below, above)
 
 

@@ -21,6 +21,7 @@ from tribodyn.core.quoting import as_given, meant, nearest
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.results.summary import KeyResult, name_today
+from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written
@@ -167,7 +168,7 @@ class Search:
         asked, limit = self.question, self.limit
         upwards = limit.is_kept(self.tried[asked.high])
         for step in (0.0, 0.5 * within, within):
-            value = _readable(root + step if upwards else root - step)
+            value = readable(root + step if upwards else root - step)
             value = min(max(value, asked.low), asked.high)
             if limit.is_kept(self._numbers([value])[0]):
                 return value
@@ -189,15 +190,13 @@ class Search:
         )
 
     def _excess(self, value: float) -> float:
-        return self._numbers([_readable(value)])[0] - self.limit.value
+        return self._numbers([readable(value)])[0] - self.limit.value
 
     def _numbers(self, values: Sequence[float]) -> list[float]:
         missing = [value for value in values if value not in self.tried]
         if missing:
             dataset = self._runs(missing)
-            for text in dataset["failure"].values.ravel().tolist():
-                if text:
-                    raise TribodynError(f"a run of the search failed: {text}")
+            refuse_failures(dataset, "a run of the search failed")
             if self.question.until.name not in dataset:
                 raise TribodynError(no_run_has(self.question.until.name, dataset))
             numbers = dataset[self.question.until.name].values.tolist()
@@ -342,10 +341,7 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
         There is no such key result, or what follows is no number.
     """
     name, equals, number = (part.strip() for part in text.partition("="))
-    at_least, name = name.endswith(">"), name_today(name.rstrip("<> "))
-    known = key_results_of_case(case)
-    words = name.split("_")
-    matching = [name] if name in known else [one for one in known if set(words) <= set(one.split("_"))]
+    at_least, name = name.endswith(">"), name.rstrip("<> ")
     relative = least and number.endswith("%")
     try:
         value = float(number.removesuffix("%") if relative else number)
@@ -358,9 +354,24 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
         raise InputError(f"{as_given(text)}; allowed: {allowed}", key=option)
     if at_least and not least:
         raise InputError(f"{as_given(text)}; points that do not exceed a limit are counted", key=option)
-    if not matching:
+    first, *others = matching(name, case, option)
+    return Limit(first, value, at_least, relative, tuple(others))
+
+
+def matching(name: str, case: Case, option: str) -> list[str]:
+    """Return the key results of a case that a name means: one, or those with all its words.
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    name, known = name_today(name), key_results_of_case(case)
+    words = set(name.split("_"))
+    found = [name] if name in known else [one for one in known if words <= set(one.split("_"))]
+    if not found:
         raise InputError(f"{as_given(name)}; not a key result; {nearest(name, known)}. {LISTED}", key=option)
-    return Limit(matching[0], value, at_least, relative, tuple(matching[1:]))
+    return found
 
 
 def no_run_has(name: str, dataset: xr.Dataset) -> str:
@@ -368,5 +379,6 @@ def no_run_has(name: str, dataset: xr.Dataset) -> str:
     return f"no run has {name} for this case{meant(name, [str(other) for other in dataset.data_vars])}"
 
 
-def _readable(value: float) -> float:
-    return float(f"{value:.{_DIGITS}g}")
+def readable(value: float, digits: int = _DIGITS) -> float:
+    """Return a value of few digits, which a person can read and which reads back exactly."""
+    return float(f"{value:.{digits}g}")

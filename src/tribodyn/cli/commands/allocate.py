@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
-from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.directory import kept_runs
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,7 +15,6 @@ if TYPE_CHECKING:
 
 HELP = "find the cheapest tolerances with which limits are kept with a probability"
 EXAMPLE = "tribodyn allocate slider-crank --limit error_rms_um_slider=25 --probability 0.99 --cost costs.toml"
-_STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -50,16 +46,14 @@ def execute(args: Namespace) -> int:
     if args.samples < 1:
         raise InputError(f"given {args.samples}; allowed: 1 or more", key="--samples")
     case, console = chosen_case(args), Console.of(args)
-    directory = OutputDirectory(f"allocate-{Path(args.case).stem}" if args.output is None else args.output)
-    with directory.reserved(), Interruption(_STOPPING) as stop:
-        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+    with kept_runs("allocate", args) as (directory, stop):
         found = allocate(
             case,
             args.limit,
             args.probability,
             args.cost,
             samples=args.samples,
-            directory=directory.path,
+            directory=directory,
             workers=args.workers,
             watcher=Watcher(stop=stop, note=console.note),
         )

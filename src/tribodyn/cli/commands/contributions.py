@@ -7,19 +7,17 @@ import os
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import FIGURES, OutputDirectory
-from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.directory import FIGURES, kept_runs
 
 if TYPE_CHECKING:
     from tribodyn.studies import OutputShares
 
 HELP = "divide the error of each output among the joints with clearance"
 EXAMPLE = "tribodyn contributions four-bar"
-_STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -39,19 +37,15 @@ def execute(args: Namespace) -> int:
 
     case, console = chosen_case(args), Console.of(args)
     real_joints(case)
-    directory = OutputDirectory(
-        f"contributions-{Path(args.case).stem}" if args.output is None else args.output
-    )
-    with directory.reserved(), Interruption(_STOPPING) as stop:
-        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+    with kept_runs("contributions", args) as (directory, stop):
         watcher = Watcher(stop=stop, note=console.note)
-        found = contributions(case, directory=directory.path, workers=args.workers, watcher=watcher)
+        found = contributions(case, directory=directory, workers=args.workers, watcher=watcher)
         if args.figures:
-            _draw(found, case.title, directory.path / FIGURES)
+            _draw(found, case.title, directory / FIGURES)
     for one in found:
         _tell(one, console)
     if args.figures:
-        console.say(f"\nfigures are in {os.fspath(directory.path / FIGURES)}{os.sep}")
+        console.say(f"\nfigures are in {os.fspath(directory / FIGURES)}{os.sep}")
     if console.json:
         show_json({one.output: _as_json(one) for one in found})
     return 0

@@ -5,13 +5,11 @@ from __future__ import annotations
 import os
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
-from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
-from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.directory import kept_runs
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -23,7 +21,6 @@ HELP = "find the last value of a parameter at which a key result keeps a limit"
 EXAMPLE = (
     "tribodyn find slider-crank --vary joints.wrist.clearance.radial=10..60um --until error_rms_um_slider=20"
 )
-_STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -70,11 +67,9 @@ def execute(args: Namespace) -> int:
     if until.others:
         console.note(f"{until.name} is taken; {', '.join(until.others)} would match, too")
     asked = question(case, path, values, until)
-    directory = OutputDirectory(f"find-{Path(args.case).stem}" if args.output is None else args.output)
-    with directory.reserved(), Interruption(_STOPPING) as stop:
-        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+    with kept_runs("find", args) as (directory, stop):
         watcher = Watcher(_printer(console), stop, console.note)
-        search = Search(asked, directory.path, Means(workers=args.workers, keep_results=False), watcher)
+        search = Search(asked, directory, Means(workers=args.workers, keep_results=False), watcher)
         root = search.root(args.within / 100.0)
         search.dataset()
     _tell(search, root, console)

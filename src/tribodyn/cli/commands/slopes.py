@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import math
-import os
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
-from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.directory import kept_runs
 
 if TYPE_CHECKING:
     from tribodyn.studies import Slope
 
 HELP = "change of key results with keys of a case, by differences over a ladder of steps"
 EXAMPLE = "tribodyn slopes slider-crank --vary joints.wrist.clearance.radial --of error_rms_um_slider"
-_STOPPING: Final = "stopping; finished runs are kept; interrupt again to leave at once"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -49,11 +45,9 @@ def execute(args: Namespace) -> int:
     case, console = chosen_case(args), Console.of(args)
     parts = [[without_quotes(part) for part in typed(text).partition("=")] for text in args.vary]
     keys = {path: step or None for path, _, step in parts}
-    directory = OutputDirectory(f"slopes-{Path(args.case).stem}" if args.output is None else args.output)
-    with directory.reserved(), Interruption(_STOPPING) as stop:
-        last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
+    with kept_runs("slopes", args) as (directory, stop):
         watcher = Watcher(stop=stop, note=console.note)
-        found = slopes(case, keys, args.of, directory=directory.path, workers=args.workers, watcher=watcher)
+        found = slopes(case, keys, args.of, directory=directory, workers=args.workers, watcher=watcher)
     for number in dict.fromkeys(one.number for one in found):
         console.say(f"\n{number}, change for 1 % of the key:")
         for one in found:
