@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from typing import Final
 
 from tables.markdown import STATIC, Found, Lines, head, row, seconds, stored
@@ -220,7 +221,15 @@ def machines(found: Found) -> Lines:
         yield row(f"`{name}`", value["on"], f"{value['load']:.1f}")
 
 
-TABLES: Final = {
+def options() -> Lines:
+    """Give times with other options of LLVM over those of the library as it is built."""
+    with (STATIC / "llvm_options.csv").open(encoding="utf-8", newline="") as file:
+        first, *lines = csv.reader(file)
+    yield from head(*(f"`{name}`" if name not in ("options", "MB") else name for name in first))
+    yield from (row(name, size, *(f"{float(ratio):.2f}" for ratio in ratios)) for name, size, *ratios in lines)
+
+
+TABLES: Final = {"options": options} | {
     table.__name__: stored(SOURCE, table)
     for table in (
         goals,
