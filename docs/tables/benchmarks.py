@@ -226,7 +226,9 @@ def options() -> Lines:
     with (STATIC / "llvm_options.csv").open(encoding="utf-8", newline="") as file:
         first, *lines = csv.reader(file)
     yield from head(*(f"`{name}`" if name not in ("options", "MB") else name for name in first))
-    yield from (row(name, size, *(f"{float(ratio):.2f}" for ratio in ratios)) for name, size, *ratios in lines)
+    yield from (
+        row(name, size, *(f"{float(ratio):.2f}" for ratio in ratios)) for name, size, *ratios in lines
+    )
 
 
 TABLES: Final = {"options": options} | {

@@ -1,6 +1,7 @@
-"""A chart over time as a figure, its reversals marked and kept from flattening what lies between."""
+"""A chart as a figure, its reversals marked and kept from flattening what lies between."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Final
 
@@ -8,13 +9,14 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.figures.style import GREY, SMALL
-from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
-from tribodyn.views.events import impact_time, reversal_times, series
+from tribodyn.views.charts import Chart, ChartMarks, Panel
+from tribodyn.views.events import finite, impact_time, peak, reversal_times, series
 from tribodyn.views.playback import time_unit
 from tribodyn.views.section import angle_of
 
@@ -37,6 +39,10 @@ DASHES: Final[dict[str, style.LineStyle]] = {
 }
 _PANEL: Final = 1.55
 """Height of a panel [in]."""
+_WIDTHS: Final = (1.7, 1.0)
+"""Of the columns of panels and of close-ups."""
+_LONGEST: Final = 0.3
+"""Length of a close-up, at most [s]."""
 
 
 def family(chart: Chart) -> Family:
@@ -48,42 +54,97 @@ def family(chart: Chart) -> Family:
         needs=chart.needs,
         draw=partial(draw, chart),
         shows=lambda dataset: bool(chart.drawn(dataset)),
-        over=partial(draw, chart),
+        over=partial(draw, chart) if chart.abscissa is None else None,
     )
 
 
 def draw(chart: Chart, dataset: xr.Dataset, over: str = "") -> Figure:
-    """Draw the panels of a chart above each other over the simulated time, or over the angle of a joint."""
+    """Draw the panels of a chart above each other over its axis, or over the angle of a joint."""
     panels = chart.drawn(dataset)
     figure = style.sheet(dataset, chart.title, 1.1 + _PANEL * max(len(panels), 2))
     if not panels:
-        style.note(figure.subplots(), "nothing varies over time")
+        style.note(figure.subplots(), "nothing varies")
         return figure
-    unit, scale = time_unit(dataset)
-    time, turns = series(dataset, "time", scale), scale * reversal_times(dataset)
-    label, place = angle_of(dataset, over) if over else (f"time [{unit}]", time)
-    every = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    for axes, panel in zip(every, panels, strict=True):
+    closer = bool(chart.fading) and not over and dataset["time"].size > 1
+    grid = figure.subplots(
+        len(panels), 1 + closer, sharex="col", squeeze=False, width_ratios=_WIDTHS[: 1 + closer]
+    )
+    label, place, scale = _axis(chart, dataset, over)
+    timed = chart.abscissa is None and not over
+    turns = reversal_times(dataset) if timed else np.empty(0)
+    for axes, panel in zip(grid[:, 0], panels, strict=True):
         _draw_panel(axes, panel, place)
-        cut_off(axes, *panel.ordinate(time / scale, turns / scale, impact_time(dataset)))
-        if over:
-            continue
-        if panel.marks is not None:
+        cut_off(axes, *panel.ordinate(place / scale, turns, impact_time(dataset) if timed else 0.0))
+        if timed and panel.marks is not None:
             _draw_marks(axes, panel.marks, scale)
-        mark_reversals(axes, turns, label=axes is every[-1] and not panel.smooth)
-    every[-1].set_xlabel(label, size=style.TEXT)
+        mark_reversals(axes, scale * turns, label=axes is grid[-1, 0] and not panel.smooth)
+        if len(panel.curves) > 1 and not closer:
+            style.legend_beside(axes)
+    grid[-1, 0].set_xlabel(label, size=style.TEXT)
+    if closer:
+        _draw_closer(grid, panels, series(dataset, "time"), close_up(dataset, chart), scale)
+        handles, names = grid[0, 0].get_legend_handles_labels()
+        figure.legend(handles, names, loc="outside lower center", ncols=4, frameon=False, fontsize=SMALL)
     figure.align_ylabels()
     return figure
 
 
-def _draw_panel(axes: Axes, panel: Panel, time: FloatArray) -> None:
+def _axis(chart: Chart, dataset: xr.Dataset, over: str) -> tuple[str, FloatArray, float]:
+    """Return label and values of the axis, and their scale."""
+    if over:
+        return *angle_of(dataset, over), 1.0
+    if chart.abscissa is not None:
+        return *chart.abscissa(dataset), 1.0
+    unit, scale = time_unit(dataset)
+    return f"time [{unit}]", series(dataset, "time", scale), scale
+
+
+def _draw_panel(axes: Axes, panel: Panel, place: FloatArray) -> None:
     for curve in panel.curves:
-        style.lines(axes, time, [_looks(curve)], width=0.75 * curve.width)
+        look = curve.values, curve.name, COLOURS[curve.colour], DASHES[curve.dash]
+        style.lines(axes, place, [look], width=0.75 * curve.width)
     if panel.level is not None:
         axes.axhline(panel.level, color=style.GREY, linewidth=0.8, dashes=(2, 2), zorder=1)
-    if len(panel.curves) > 1:
-        style.legend_beside(axes)
     style.finish(axes, y_label=panel.label)
+
+
+def _draw_closer(
+    grid: NDArray[np.object_],
+    panels: Sequence[Panel],
+    time: FloatArray,
+    ends: tuple[float, float],
+    scale: float,
+) -> None:
+    """Draw a stretch of each panel [s] beside it, from a tenth of its length before, in milliseconds."""
+    start, end = ends
+    lead, wider = 0.1 * (end - start), 0.012 * float(np.ptp(time))
+    inside = (time >= start - lead) & (time <= end)
+    for (whole, close), panel in zip(grid, panels, strict=True):
+        whole.axvspan(scale * (start - wider), scale * (end + wider), color="#f3e2c0", zorder=0)
+        shown = [replace(curve, values=curve.values[inside]) for curve in panel.curves]
+        _draw_panel(close, replace(panel, curves=shown), 1e3 * (time[inside] - start))
+        close.set(xlim=(-1e3 * lead, 1e3 * (end - start)), ylabel="", facecolor="#fdf8ee")
+    style.caption(grid[0, 1], f"close up at {start:.4g} s (shaded)")
+    grid[-1, 1].set_xlabel(f"time after {start:.4g} s [ms]", size=style.TEXT)
+
+
+def close_up(dataset: xr.Dataset, chart: Chart) -> tuple[float, float]:
+    """Return start and end [s] of the stretch from the hardest reversal until a curve has faded.
+
+    The size of the first curves of all panels is largest after it; without reversals, at the start.
+    """
+    time, panels = series(dataset, "time"), chart.panels(dataset)
+    size = np.linalg.norm([panel.curves[0].values for panel in panels], axis=0)
+    if not finite(size).size:
+        return 0.0, 0.1
+    turns, settling = reversal_times(dataset), impact_time(dataset)
+    peaks = [peak(size[(time >= turn) & (time <= turn + settling)]) for turn in turns]
+    start = float(turns[int(np.argmax(peaks))] if peaks else time[np.nanargmax(size)])
+    fading = [curve.values for panel in panels for curve in panel.curves if curve.name == chart.fading]
+    near = (time >= start) & (time <= start + _LONGEST)
+    left = np.linalg.norm(fading, axis=0)[near]
+    loud = time[near][left > 0.1 * peak(left)]
+    return start, start + (float(np.clip(1.4 * (loud[-1] - start), 0.03, _LONGEST)) if loud.size else 0.1)
 
 
 def _draw_marks(axes: Axes, marks: ChartMarks, scale: float) -> None:
@@ -94,10 +155,6 @@ def _draw_marks(axes: Axes, marks: ChartMarks, scale: float) -> None:
         axes.annotate(
             label, (time, value), xytext=offset, textcoords="offset points", ha="center", size=style.SMALL
         )
-
-
-def _looks(curve: ChartCurve) -> tuple[FloatArray, str, str, style.LineStyle]:
-    return curve.values, curve.name, COLOURS[curve.colour], DASHES[curve.dash]
 
 
 def mark_reversals(axes: Axes, times: FloatArray, label: bool = False) -> None:

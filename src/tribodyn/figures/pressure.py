@@ -1,7 +1,7 @@
 """Contact pressure on the unrolled bushing at the snapshots."""
 
 from string import ascii_lowercase
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -13,17 +13,8 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.figure_family import Family
-from tribodyn.figures.style import GREY, SMALL, TEXT, caption, note, sheet
-from tribodyn.views.bushing import (
-    WALL,
-    best_cut,
-    height_marks,
-    rolled,
-    shortened,
-    unloaded_middle,
-    wall_angles,
-    z_label,
-)
+from tribodyn.figures.style import GREY, SMALL, TEXT, caption, colour_bar, note, sheet
+from tribodyn.views.bushing import WALL, Unrolled, unrolled
 from tribodyn.views.events import series, signed
 
 # White where there is nothing, then steadily darker: a grey print keeps the order.
@@ -33,13 +24,7 @@ COLOURS: Final[Colormap] = LinearSegmentedColormap.from_list(
 
 
 def draw_map(
-    axes: Axes,
-    dataset: xr.Dataset,
-    theta: FloatArray,
-    field: FloatArray,
-    cut: float,
-    largest: float,
-    empty: float,
+    axes: Axes, laid: Unrolled, field: FloatArray, largest: float | None = None, level: float = 0.0
 ) -> QuadMesh:
     """Draw a field on the unrolled bushing.
 
@@ -47,82 +32,41 @@ def draw_map(
     ----------
     axes
         Where to draw.
-    dataset
-        A result with ``z`` [m].
-    theta
-        Angles of the nodes as the axis counts them [rad], shape (n_theta,).
+    laid
+        The bushing.
     field
         Values in the unit of the colour bar, shape (n_theta, n_z).
-    cut
-        Where the bushing is cut open [deg].
     largest
-        Value of the darkest colour.
-    empty
-        From :func:`unloaded_middle` [mm].
+        Value of the darkest colour; by default the largest one.
+    level
+        Value along which a line is drawn; 0 for none.
     """
-    z = dataset["z"].values * 1e3
-    angle, values = rolled(theta, field, cut)
-    if empty:
-        _shorten_middle(axes, empty, float(z[-1]))
-    mesh = axes.pcolormesh(
-        angle, z, values.T, shading="gouraud", cmap=COLOURS, vmin=0.0, vmax=largest, rasterized=True
-    )
-    _angles(axes, float(angle[0]))
-    _heights(axes, z, empty)
+    angle, heights, values = laid.angle, laid.heights, laid.turned(field)
+    look: dict[str, Any] = {"shading": "gouraud", "cmap": COLOURS, "vmin": 0.0, "rasterized": True}
+    mesh = axes.pcolormesh(angle, heights, values.T, vmax=largest, **look)
+    if values.min() < level < values.max():
+        axes.contour(angle, heights, values.T, levels=[level], colors=[GREY], linewidths=0.8)
+    if laid.empty:
+        low, high = laid.drawn([-laid.empty, laid.empty])
+        axes.axhspan(
+            low, high, facecolor="#f4f4f4", edgecolor="#cfcfcf", hatch="////", linewidth=0.0, zorder=2
+        )
+    turns, texts = laid.angle_ticks
+    axes.set_xticks(turns[::2], texts[::2])
+    axes.set_xticks(turns[1::2], minor=True)
+    axes.set_yticks(*laid.height_ticks)
+    # With room beyond the edges, so that what lies on them is seen.
+    reach = 1.0 + _BEYOND
+    axes.set(xlim=angle[[0, -1]], ylim=(reach * heights[0], reach * heights[-1]))
+    for edge in heights[[0, -1]]:
+        axes.axhline(edge, color=GREY, linewidth=0.8)
+    axes.tick_params(which="both", labelsize=SMALL, color=GREY, length=2)
+    axes.spines[:].set_visible(False)
     return mesh
 
 
-def _shorten_middle(axes: Axes, empty: float, half: float) -> None:
-    """Give the middle ``|z| < empty`` an eighth of the height, and the two edge bands the rest."""
-    bend = (half - empty) / 7.0
-    shrink = bend / empty
-
-    def forward(z: FloatArray) -> FloatArray:
-        return shortened(z, empty, half)
-
-    def backward(y: FloatArray) -> FloatArray:
-        return np.where(np.abs(y) < bend, y / shrink, np.sign(y) * (empty + np.abs(y) - bend))
-
-    axes.set_yscale("function", functions=(forward, backward))
-    axes.axhspan(
-        -empty, empty, facecolor="#f4f4f4", edgecolor="#cfcfcf", hatch="////", linewidth=0.0, zorder=2
-    )
-
-
-def _angles(axes: Axes, start: float) -> None:
-    """Give the map its angular axis, labelled with bushing angles from 0° to 360°."""
-    first = 45.0 * np.ceil(start / 45.0 - 1e-9)
-    ticks = first + 45.0 * np.arange(9)
-    axes.set_xlim(start, start + 360.0)
-    axes.set_xticks(ticks[::2], [f"{tick % 360:.0f}" for tick in ticks[::2]])
-    axes.set_xticks(ticks[1::2], minor=True)
-    axes.tick_params(labelsize=SMALL, color=GREY, length=3)
-    axes.tick_params(which="minor", color=GREY, length=2)
-
-
-def _heights(axes: Axes, z: FloatArray, empty: float) -> None:
-    """Give the map its axial axis, with room beyond the bushing's edges so that what lies on them is seen."""
-    half = float(z[-1])
-    room = 0.2 * (half - empty)
-    ticks = height_marks(half, empty)
-    axes.set_ylim(-half - room, half + room)
-    axes.set_yticks(ticks, [f"{tick:.3g}".replace("-", "−") for tick in ticks])
-    axes.set_yticks([], minor=True)
-    for edge in (-half, half):
-        axes.axhline(edge, color=GREY, linewidth=0.8)
-    axes.spines[:].set_visible(False)
-
-
-def threshold_line(
-    axes: Axes, dataset: xr.Dataset, theta: FloatArray, field: FloatArray, cut: float, level: float
-) -> None:
-    """Draw the line on which the field equals ``level``."""
-    angle, values = rolled(theta, field, cut)
-    if values.min() < level < values.max():
-        heights = dataset["z"].values * 1e3
-        axes.contour(angle, heights, values.T, levels=[level], colors=[GREY], linewidths=0.8)
-
-
+_BEYOND: Final = 0.17
+"""Room beyond the edges, over half of the height."""
 TITLE: Final = "Contact pressure on the unrolled bushing"
 Panels: TypeAlias = NDArray[np.object_]
 CONTACT_ZONE: Final = 0.05
@@ -144,27 +88,21 @@ def draw(
         Angles of the nodes [rad], shape (n_theta,), and what the axis calls them; by default those of the
         bushing's wall.
     """
-    theta = wall_angles(dataset) if theta is None else theta
     figure = sheet(dataset, title, 6.2)
     places = _places(dataset)
     rows = max(3, 1 + max((row for row, _ in places), default=0))
     panels = figure.subplots(rows, 2, sharex=True, sharey=True, squeeze=False)
     pressure = np.nan_to_num(dataset["pressure"].values) * 1e-6
     largest = float(pressure.max(initial=0.0)) or 1.0
-    cut = best_cut(theta, pressure.max(axis=(0, 2), initial=0.0))
-    empty = unloaded_middle(dataset, pressure.max(axis=0, initial=0.0))
+    laid = unrolled(dataset, pressure, theta=theta)
     for index, place in enumerate(places):
-        mesh = draw_map(panels[place], dataset, theta, pressure[index], cut, largest, empty)
-        _describe(panels[place], dataset, theta, index)
-        level = CONTACT_ZONE * pressure[index].max()
-        threshold_line(panels[place], dataset, theta, pressure[index], cut, level)
+        level = CONTACT_ZONE * float(pressure[index].max())
+        mesh = draw_map(panels[place], laid, pressure[index], largest, level)
+        _describe(panels[place], dataset, laid.theta, index)
     _blank(panels, set(places))
-    _label(panels, z_label(empty), label)
+    _label(panels, laid.label, label)
     if places:
-        bar = figure.colorbar(mesh, ax=panels, shrink=0.6, aspect=30, pad=0.02)
-        bar.set_label("contact pressure [MPa]", size=TEXT)
-        bar.ax.tick_params(labelsize=SMALL)
-        bar.outline.set_visible(False)
+        colour_bar(figure, mesh, panels, "contact pressure [MPa]", shrink=0.6)
     return figure
 
 

@@ -4,6 +4,7 @@ Nothing here touches matplotlib's global state: no pyplot, no rcParams, so that 
 thread, a test or a notebook without changing what the user set up there.
 """
 
+from collections.abc import Sequence
 from typing import Any, Final, Literal, TypeAlias
 
 import xarray as xr
@@ -40,6 +41,9 @@ WIDTH: Final = 7.6
 DPI: Final = 150
 TEXT: Final = 9.0
 SMALL: Final = 8.0
+_ACROSS: Final = 3
+"""Panels beside each other; one less where their names are long."""
+_LONG: Final = 18
 
 
 def sheet(dataset: xr.Dataset, title: str, height: float, width: float = WIDTH) -> Figure:
@@ -63,6 +67,18 @@ def sheet(dataset: xr.Dataset, title: str, height: float, width: float = WIDTH) 
     if dataset.attrs.get("failure"):
         _mark_partial(figure, dataset, height)
     return figure
+
+
+def grid(dataset: xr.Dataset, title: str, names: Sequence[str], height: float) -> tuple[Figure, list[Axes]]:
+    """Return a sheet of panels of a height [in] for names, those that nothing is drawn in taken away."""
+    n, longest = max(len(names), 1), max(map(len, names), default=0)
+    columns = min(n, _ACROSS - (longest > _LONG))
+    rows = -(-n // columns)
+    figure = sheet(dataset, title, 0.5 + height * rows)
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes in panels[n:]:
+        axes.remove()
+    return figure, list(panels[:n])
 
 
 def subtitle(dataset: xr.Dataset) -> str:
@@ -137,9 +153,11 @@ def legend_beside(axes: Axes) -> Legend:
     )
 
 
-def colour_bar(figure: Figure, mesh: ScalarMappable, axes: Axes, label: str) -> None:
-    """Put the scale of colours beside axes."""
-    bar = figure.colorbar(mesh, ax=axes, shrink=0.9, aspect=26, pad=0.02)
+def colour_bar(
+    figure: Figure, mesh: ScalarMappable, axes: Any, label: str, *, shrink: float = 0.9, **options: Any
+) -> None:
+    """Put the scale of colours beside axes, one or several."""
+    bar = figure.colorbar(mesh, ax=axes, shrink=shrink, aspect=26, pad=0.02, **options)
     bar.set_label(label, size=TEXT)
     bar.ax.tick_params(labelsize=SMALL)
     bar.outline.set_visible(False)

@@ -1,6 +1,5 @@
-"""Wear of the bushing: the worn depth, and its history over a campaign."""
+"""Worn depth of the bushing."""
 
-from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
@@ -12,9 +11,9 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
 from tribodyn.figures.pressure import draw_map
-from tribodyn.views.bushing import WALL, best_cut, rolled, unloaded_middle, wall_angles, z_label
-from tribodyn.views.events import series, signed
-from tribodyn.views.wear import PANELS, WEAR_HISTORY, fitting_unit, no_feedback
+from tribodyn.views.bushing import WALL, Unrolled, unrolled
+from tribodyn.views.events import signed
+from tribodyn.views.wear import fitting_unit
 
 TITLE: Final = "Wear depth of the bushing"
 
@@ -26,18 +25,13 @@ def draw(dataset: xr.Dataset) -> Figure:
     depth = np.nan_to_num(dataset["wear_depth"].values)
     unit, size = fitting_unit(float(depth.max(initial=0.0)))
     depth = depth / size
-    theta = wall_angles(dataset)
-    cut = best_cut(theta, depth.max(axis=1, initial=0.0))
-    empty = unloaded_middle(dataset, depth)
-    mesh = draw_map(plan, dataset, theta, depth, cut, float(depth.max(initial=0.0)) or 1.0, empty)
-    _profiles(profile, dataset, depth, cut)
+    laid = unrolled(dataset, depth[None])
+    mesh = draw_map(plan, laid, depth, float(depth.max(initial=0.0)) or 1.0)
+    _profiles(profile, laid, depth)
     _key_result(plan, dataset, depth, unit)
-    plan.set_ylabel(z_label(empty), size=style.TEXT)
+    plan.set_ylabel(laid.label, size=style.TEXT)
     style.finish(profile, WALL, f"depth [{unit}]")
-    bar = figure.colorbar(mesh, ax=[plan, profile], shrink=0.7, aspect=30, pad=0.02)
-    bar.set_label(f"wear depth [{unit}]", size=style.TEXT)
-    bar.ax.tick_params(labelsize=style.SMALL)
-    bar.outline.set_visible(False)
+    style.colour_bar(figure, mesh, [plan, profile], f"wear depth [{unit}]", shrink=0.7)
     return figure
 
 
@@ -50,17 +44,16 @@ def _key_result(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -
     style.caption(axes, f"deepest {depth.max(initial=0.0):.3g} {unit}{after}")
 
 
-def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) -> None:
+def _profiles(axes: Axes, laid: Unrolled, depth: FloatArray) -> None:
     """Draw the depth around the bushing at both edges and in the middle."""
-    z = dataset["z"].values
+    z, around = laid.z, laid.turned(depth)
     middle = int(np.argmin(np.abs(z)))
-    angle, around = rolled(wall_angles(dataset), depth, cut)
     curves = [
-        (around[:, -1], f"top edge, z = {signed(z[-1] * 1e3)} mm", style.BLUE, style.SOLID),
+        (around[:, -1], f"top edge, z = {signed(z[-1])} mm", style.BLUE, style.SOLID),
         (around[:, middle], "middle", style.INK, style.DOTTED),
-        (around[:, 0], f"bottom edge, z = {signed(z[0] * 1e3)} mm", style.VERMILION, style.DASHED),
+        (around[:, 0], f"bottom edge, z = {signed(z[0])} mm", style.VERMILION, style.DASHED),
     ]
-    style.lines(axes, angle, curves)
+    style.lines(axes, laid.angle, curves)
     axes.set_ylim(bottom=0.0)
     style.legend(axes, 3)
 
@@ -75,85 +68,4 @@ FAMILY: Final = Family(
     ),
     needs=("wear_depth", "theta", "z"),
     draw=draw,
-)
-
-
-HISTORY_TITLE: Final = WEAR_HISTORY.title
-_LOOKS: Final = ((style.INK, style.DASHED), (style.BLUE, style.SOLID))
-FAR_APART: Final = 10.0
-"""Ratio of the largest to the least from which an axis counts in powers of ten."""
-
-
-def draw_history(dataset: xr.Dataset) -> Figure:
-    """Draw the greatest depth, and below it what is known of the cycles that were simulated."""
-    below = [
-        (label, size, there)
-        for label, size, names in PANELS
-        if (there := {name: words for name, words in names.items() if name in dataset})
-    ]
-    figure = style.sheet(dataset, HISTORY_TITLE, 2.6 + 1.7 * len(below))
-    panels = figure.subplots(1 + len(below), 1, sharex=True, squeeze=False)[:, 0]
-    cycles = series(dataset, "wear_cycles")
-    if cycles.size:
-        _depth(panels[0], dataset, cycles)
-        for axes, (_, size, names) in zip(panels[1:], below, strict=True):
-            _of_motion(axes, dataset, cycles, size, names)
-    else:
-        for axes in panels:
-            style.note(axes, "nothing computed")
-    style.finish(panels[0], "", panels[0].get_ylabel())
-    for axes, (label, _, _) in zip(panels[1:], below, strict=True):
-        style.finish(axes, "drive cycles" if axes is panels[-1] else "", label)
-    return figure
-
-
-def _depth(axes: Axes, dataset: xr.Dataset, cycles: FloatArray) -> None:
-    """Draw the depth, and beside it the straight line that it would be without feedback."""
-    depth = series(dataset, "wear_depth_max")
-    unit, size = fitting_unit(float(np.nanmax(depth, initial=0.0)))
-    axes.plot(cycles, no_feedback(dataset) / size, color=style.GREY, linestyle=style.DASHED, linewidth=1.2)
-    axes.plot(
-        cycles,
-        depth / size,
-        color=style.BLUE,
-        linestyle=style.SOLID,
-        linewidth=1.5,
-        marker=_marker(cycles),
-        ms=2.5,
-    )
-    axes.set_ylim(0.0, 1.6 * float(np.nanmax(depth, initial=0.0)) / size or 1.0)
-    axes.set_ylabel(f"depth [{unit}]")
-    deepest = f"deepest {depth[-1] / size:.3g} {unit} after {cycles[-1]:.0f} cycles"
-    style.caption(axes, f"{deepest}; dashed: if the first rate went on")
-
-
-def _of_motion(
-    axes: Axes, dataset: xr.Dataset, cycles: FloatArray, size: float, names: Mapping[str, str]
-) -> None:
-    """Draw numbers of the simulated cycles; far apart, in powers of ten."""
-    drawn = [
-        (series(dataset, name, 1.0 / size), words, *look)
-        for (name, words), look in zip(names.items(), _LOOKS, strict=False)
-    ]
-    style.lines(axes, cycles, drawn)
-    every = np.array([values for values, *_ in drawn])
-    largest, least = float(np.nanmax(every)), float(np.nanmin(every))
-    if least > 0.0 and largest > FAR_APART * least:
-        axes.set_yscale("log")
-    else:
-        axes.set_ylim(0.0, 1.3 * largest or 1.0)
-    style.legend(axes, 2)
-
-
-def _marker(cycles: FloatArray) -> str:
-    """Mark the stops as long as they can be distinguished."""
-    return "o" if cycles.size <= 40 else ""
-
-
-HISTORY: Final = Family(
-    name="wear_history",
-    title=HISTORY_TITLE,
-    caption=WEAR_HISTORY.caption,
-    needs=WEAR_HISTORY.needs,
-    draw=draw_history,
 )

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import packed, quantised
@@ -124,11 +124,6 @@ def unloaded_middle(dataset: xr.Dataset, field: FloatArray) -> float:
     return float(height) if height >= 0.5 * distance.max() else 0.0
 
 
-def z_label(empty: float) -> str:
-    """Return the label of the axial axis."""
-    return "z [mm]" if not empty else "z [mm]\n(middle shortened)"
-
-
 def shortened(z: FloatArray, empty: float, half: float) -> FloatArray:
     """Return the places of heights when the middle ``|z| < empty`` gets an eighth of the room.
 
@@ -184,28 +179,56 @@ class Unrolled:
     empty: float
     middle: float = 0.0
 
-    def reordered(self, fields: FloatArray) -> FloatArray:
-        """Return fields of shape (n, n_theta, n_z) as rows for the drawing, (n, n_z, n_theta + 1)."""
-        turned = np.moveaxis(fields, 1, 0)
-        return np.moveaxis(rolled(self.theta, turned, self.cut)[1], 0, 2)
+    @property
+    def angle(self) -> FloatArray:
+        """Angles from the cut once around [°], shape (n_theta + 1,)."""
+        return rolled(self.theta, self.theta, self.cut)[0]
 
-    def axes(self) -> dict[str, Any]:
-        """Return coordinates and tick marks."""
-        angle = rolled(self.theta, np.zeros((self.theta.size, 1)), self.cut)[0]
+    def turned(self, field: FloatArray) -> FloatArray:
+        """Return values of shape (n_theta, ...) at these angles."""
+        return rolled(self.theta, field, self.cut)[1]
+
+    @property
+    def heights(self) -> FloatArray:
+        """Places of the nodes in the drawing, shape (n_z,)."""
+        return self.drawn(self.z)
+
+    def drawn(self, z: ArrayLike) -> FloatArray:
+        """Return the places of heights [mm] in the drawing."""
+        return shortened(np.asarray(z, dtype=np.float64), self.empty, float(self.z[-1]))
+
+    @property
+    def label(self) -> str:
+        """Label of the axial axis."""
+        return "z [mm]\n(middle shortened)" if self.empty else "z [mm]"
+
+    @property
+    def angle_ticks(self) -> tuple[FloatArray, list[str]]:
+        """Places and texts of the marks of angles."""
+        first, last = self.angle[[0, -1]]
+        turns = 45.0 * np.arange(np.ceil(first / 45.0 - 1e-9), np.floor(last / 45.0 + 1e-9) + 1.0)
+        return turns, [f"{turn % 360:.0f}" for turn in turns]
+
+    @property
+    def height_ticks(self) -> tuple[FloatArray, list[str]]:
+        """Places and texts of the marks of heights."""
         half = float(self.z[-1])
         marks = np.array([-half, 0.0, half]) if self.middle else height_marks(half, self.empty)
-        turns = 45.0 * np.arange(np.ceil(angle[0] / 45.0 - 1e-9), np.floor(angle[-1] / 45.0 + 1e-9) + 1.0)
+        return self.drawn(marks), [f"{mark + self.middle:.3g}".replace("-", "−") for mark in marks]
+
+    @property
+    def axes(self) -> dict[str, Any]:
+        """Coordinates and tick marks for the script."""
+        (turns, turn_texts), (marks, mark_texts) = self.angle_ticks, self.height_ticks
         return {
-            "angle": packed(angle),
-            "height": packed(self._drawn(self.z)),
+            "angle": packed(self.angle),
+            "height": packed(self.heights),
             "z": packed(self.z + self.middle),
-            "angle_ticks": [float(turn) for turn in turns],
-            "angle_texts": [f"{turn % 360:.0f}" for turn in turns],
-            "height_ticks": [float(mark) for mark in self._drawn(marks)],
-            "height_texts": [f"{mark + self.middle:.3g}".replace("-", "−") for mark in marks],
-            "empty": [float(edge) for edge in self._drawn(np.array([-self.empty, self.empty]))]
-            if self.empty
-            else [],
+            "angle_ticks": turns.tolist(),
+            "angle_texts": turn_texts,
+            "height_ticks": marks.tolist(),
+            "height_texts": mark_texts,
+            "empty": self.drawn([-self.empty, self.empty]).tolist() if self.empty else [],
         }
 
     def payload(
@@ -229,9 +252,10 @@ class Unrolled:
         stages
             What each field is of; empty where they follow the playback.
         """
-        steps, peaks = quantised(self.reordered(fields))
+        rows = np.moveaxis(self.turned(np.moveaxis(fields, 1, 0)), 0, 2)
+        steps, peaks = quantised(rows)
         return {
-            **self.axes(),
+            **self.axes,
             "unit": unit,
             "stages": list(stages),
             "label": f"{label} [{unit}]",
@@ -241,21 +265,24 @@ class Unrolled:
             "peaks": packed(peaks),
         }
 
-    def _drawn(self, z: FloatArray) -> FloatArray:
-        """Return the places of heights in the picture [mm]."""
-        return shortened(z, self.empty, float(self.z[-1]))
 
-
-def unrolled(dataset: xr.Dataset, cut: float, empty: float) -> Unrolled:
-    """Return the places of a result's nodes.
+def unrolled(
+    dataset: xr.Dataset, fields: FloatArray, load: FloatArray | None = None, theta: FloatArray | None = None
+) -> Unrolled:
+    """Return the bushing of a result, cut where it is not loaded, a long empty middle shortened.
 
     Parameters
     ----------
     dataset
         A result with ``theta`` [rad] and ``z`` [m].
-    cut
-        Where the bushing is cut open [°].
-    empty
-        From :func:`tribodyn.figures.pressure.unloaded_middle` [mm].
+    fields
+        What is to be shown, shape (n, n_theta, n_z).
+    load
+        What should not be cut, at each angle, shape (n_theta,); by default the largest of the fields.
+    theta
+        Angles of the nodes [rad], shape (n_theta,); by default those of the wall.
     """
-    return Unrolled(wall_angles(dataset), dataset["z"].values * 1e3, cut, empty)
+    theta = wall_angles(dataset) if theta is None else theta
+    envelope = np.max(fields, axis=0, initial=0.0)
+    cut = best_cut(theta, envelope.max(axis=1, initial=0.0) if load is None else load)
+    return Unrolled(theta, dataset["z"].values * 1e3, cut, unloaded_middle(dataset, envelope))

@@ -7,10 +7,10 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import Cubics
-from tribodyn.views.bushing import best_cut, shares, unloaded_middle, unrolled, wall_angles
+from tribodyn.views.bushing import shares, unrolled
 from tribodyn.views.charts import Chart, ChartCurve, Panel
-from tribodyn.views.encode import packed
-from tribodyn.views.events import peak, series, signed
+from tribodyn.views.events import series, signed
+from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
 from tribodyn.views.playback import LINE_ERROR, dense_times, playback_times
 from tribodyn.views.section import Payload, Section
 
@@ -39,6 +39,7 @@ CONTACT_FORCE: Final = Chart(
     ),
     needs=("F_cx", "F_cy", "F_kx", "F_ky", "F_dx", "F_dy", "F_fx", "F_fy"),
     panels=_forces,
+    fading="damping part",
 )
 
 
@@ -77,10 +78,8 @@ def _pressure(dataset: xr.Dataset) -> Payload | None:
     fields = np.nan_to_num(dataset["pressure_cycle"].values) * 1e-6
     if fields.shape[0] < 2 or not fields.max(initial=0.0) > 0.0:
         return None
-    envelope = fields.max(axis=0)
-    cut = best_cut(wall_angles(dataset), shares(fields))
-    places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
-    return places.payload(fields, "contact pressure", "MPa", lambda peaks: 1.6 * float(np.median(peaks)))
+    laid = unrolled(dataset, fields, shares(fields))
+    return laid.payload(fields, "contact pressure", "MPa", lambda peaks: 1.6 * float(np.median(peaks)))
 
 
 PRESSURE: Final = Section(
@@ -95,14 +94,6 @@ PRESSURE: Final = Section(
     data=_pressure,
     still="pressure",
 )
-
-
-LOOKS: Final = (
-    {"colour": "blue", "dash": "solid", "symbol": "circle"},
-    {"colour": "ink", "dash": "dot", "symbol": "diamond"},
-    {"colour": "vermilion", "dash": "dash", "symbol": "square"},
-)
-"""Looks of top, middle and bottom."""
 
 
 def centre(dataset: xr.Dataset, z: float) -> tuple[FloatArray, FloatArray]:
@@ -141,33 +132,24 @@ def _at(motion: Cubics, times: FloatArray) -> FloatArray:
     return motion(np.clip(times, motion.x[0], motion.x[-1]))
 
 
-def _orbit(dataset: xr.Dataset) -> Payload | None:
-    """Return paths and positions at the frames [µm] of the top, middle and bottom centres."""
+def _orbit(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
+    """Return the top, middle and bottom centres of the trunnion in the clearance."""
     times = playback_times(dataset)
     if times.size < 2:
-        return None
+        return [], ""
     half = 0.5 * float(dataset.attrs.get("joint_length", 0.0))
     clearance = float(dataset.attrs.get("clearance", 0.0)) * 1e6
-    motions = [_motion(dataset, z) for z in (half, 0.0, -half)]
-    paths = [_path(motion, times, clearance) for motion in motions]
-    reach = max(clearance, *(peak(path) for path in paths), 1e-3)
-    return {
-        "clearance": clearance,
-        "reach": 1.25 * reach,
-        "joined": True,
-        "looks": LOOKS,
-        "places": [f"top, z = {signed(half * 1e3)} mm", "middle", f"bottom, z = {signed(-half * 1e3)} mm"],
-        "paths": [_places(path) for path in paths],
-        "at": [_places(_at(motion, times)) for motion in motions],
+    places = {
+        f"top, z = {signed(half * 1e3)} mm": half,
+        "middle": 0.0,
+        f"bottom, z = {signed(-half * 1e3)} mm": -half,
     }
+    motions = {name: _motion(dataset, z) for name, z in places.items()}
+    tracks = (OrbitPath(name, _path(one, times, clearance), _at(one, times)) for name, one in motions.items())
+    return [Orbit("trunnion", clearance, tuple(tracks))], ""
 
 
-def _places(points: FloatArray) -> dict[str, object]:
-    """Return points as the script reads them."""
-    return {"x": packed(points[:, 0]), "y": packed(points[:, 1])}
-
-
-ORBIT: Final = Section(
+ORBIT: Final = OrbitView(
     name="orbit",
     title="The trunnion in its bushing",
     caption=(
@@ -176,7 +158,7 @@ ORBIT: Final = Section(
         "overlap. Angles at the wall are those of the pressure map."
     ),
     needs=("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot"),
-    widget="orbit",
-    data=_orbit,
     still="trajectory",
+    orbits=_orbit,
+    several=False,
 )

@@ -348,7 +348,7 @@ def _curve(curve: ChartCurve, common: FloatArray, scale: float, tolerance: float
 
 @dataclass(frozen=True)
 class Chart:
-    """Panels above each other over the simulated time.
+    """Panels above each other over the simulated time or something else: a section and a figure.
 
     Attributes
     ----------
@@ -362,6 +362,10 @@ class Chart:
         Names of the variables without which it is left out.
     panels
         Returns what is drawn.
+    abscissa
+        Returns label and values of another axis than time, shape (n,).
+    fading
+        Name of the curve that has faded where the close-up of a figure ends; empty for none.
     """
 
     name: str
@@ -369,6 +373,8 @@ class Chart:
     caption: str
     needs: tuple[str, ...]
     panels: Callable[[xr.Dataset], Sequence[Panel]]
+    abscissa: Callable[[xr.Dataset], tuple[str, FloatArray]] | None = None
+    fading: str = ""
 
     @property
     def section(self) -> Section:
@@ -388,4 +394,7 @@ class Chart:
         return [panel.fitted[0] for panel in telling(self.panels(dataset))[0]]
 
     def _payload(self, dataset: xr.Dataset) -> Payload | None:
-        return over_time(dataset, self.panels(dataset))
+        if self.abscissa is None:
+            return over_time(dataset, self.panels(dataset))
+        label, x = self.abscissa(dataset)
+        return over(x, label, self.panels(dataset)) if x.size > 1 else None

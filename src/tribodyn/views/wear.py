@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.bushing import best_cut, unloaded_middle, unrolled, wall_angles
-from tribodyn.views.charts import ChartCurve, Panel, over
+from tribodyn.views.bushing import unrolled
+from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.events import peak, series
 from tribodyn.views.numbers import LENGTHS, in_words
 from tribodyn.views.section import Payload, Section
@@ -62,18 +62,11 @@ def _depths(dataset: xr.Dataset, depths: FloatArray, stages: list[str]) -> Paylo
     if not largest > 0.0:
         return None
     unit, size = fitting_unit(largest)
-    depths = depths / size
-    envelope = depths.max(axis=0)
-    cut = best_cut(wall_angles(dataset), envelope.max(axis=1))
-    places = unrolled(dataset, cut, unloaded_middle(dataset, envelope))
-    return places.payload(depths, "wear depth", unit, stages=stages)
+    return unrolled(dataset, depths / size).payload(depths / size, "wear depth", unit, stages=stages)
 
 
-def _history(dataset: xr.Dataset) -> Payload | None:
+def _history(dataset: xr.Dataset) -> list[Panel]:
     """Return the depth and the other numbers of the simulated cycles."""
-    cycles = series(dataset, "wear_cycles")
-    if cycles.size < 2:
-        return None
     depth = series(dataset, "wear_depth_max")
     unit, size = fitting_unit(peak(depth))
     worn = [
@@ -82,10 +75,10 @@ def _history(dataset: xr.Dataset) -> Payload | None:
     ]
     drawn = [Panel(f"wear depth [{unit}]", worn)]
     for label, size, names in PANELS:
-        there = [name for name in names if name in dataset]
-        curves = [ChartCurve(names[name], series(dataset, name) / size) for name in there]
+        there = [(names[name], series(dataset, name) / size) for name in names if name in dataset]
+        curves = [ChartCurve(*one, *look) for one, look in zip(there, LOOKS, strict=False)]
         drawn += [Panel(label, curves)] if curves else []
-    return over(cycles, "drive cycles", drawn)
+    return drawn
 
 
 WEAR_MAP: Final = Section(
@@ -110,8 +103,8 @@ WEAR_STAGES: Final = Section(
     data=_stages,
 )
 
-WEAR_HISTORY: Final = Section(
-    name="wear-history",
+WEAR_HISTORY: Final = Chart(
+    name="wear_history",
     title="Wear over the cycles",
     caption=(
         "The deepest point of the bushing, its peak pressure and the error of the motion over the cycles of "
@@ -119,7 +112,6 @@ WEAR_HISTORY: Final = Section(
         "straight line."
     ),
     needs=("wear_cycles", "wear_depth_max", "wear_rate"),
-    widget="lines",
-    data=_history,
-    still="wear_history",
+    panels=_history,
+    abscissa=lambda dataset: ("drive cycles", series(dataset, "wear_cycles")),
 )

@@ -3,10 +3,10 @@ import pytest
 
 import tribodyn as td
 from tribodyn.figures.pressure import _places
-from tribodyn.figures.trajectory import centre
-from tribodyn.figures.wear import fitting_unit
 from tribodyn.results import build
 from tribodyn.views.bushing import CUTS, best_cut, rolled, shares, unloaded_middle
+from tribodyn.views.bushing_sections import centre
+from tribodyn.views.wear import fitting_unit
 
 THETA = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
 

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
-from tribodyn.figures.contact_force import close_up
+from tribodyn.figures.chart import close_up
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import build
+from tribodyn.views.bushing_sections import CONTACT_FORCE
 from tribodyn.views.events import direction, reversal_times
 
 VSV = MECHANISMS["vsv"]
@@ -34,7 +35,7 @@ def test_the_close_up_starts_at_the_hardest_reversal(make_result):
     result = make_result()
     after = (result["time"] > np.pi) & (result["time"] < np.pi + 0.02)
     result["F_cx"].values[after.values] += 500.0
-    start, end = close_up(result)
+    start, end = close_up(result, CONTACT_FORCE)
     assert start == pytest.approx(np.pi, abs=5e-3)
     assert 0.03 <= end - start <= 0.3
 
@@ -42,4 +43,4 @@ def test_the_close_up_starts_at_the_hardest_reversal(make_result):
 def test_without_reversal_the_close_up_shows_the_largest_force(make_result):
     result = make_result(1.0)
     result["F_cx"].values[100] = 1e3
-    assert close_up(result)[0] == pytest.approx(0.5)
+    assert close_up(result, CONTACT_FORCE)[0] == pytest.approx(0.5)

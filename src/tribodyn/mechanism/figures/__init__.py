@@ -2,12 +2,13 @@
 
 from typing import Final
 
-from tribodyn.figures import chart, energy, wear
+from tribodyn.figures import chart, orbits
 from tribodyn.figures.figure_family import Animation, Family
 from tribodyn.mechanism.figures import animation as film
 from tribodyn.mechanism.figures import joints, mechanism
-from tribodyn.mechanism.results.readings import BALANCES
-from tribodyn.mechanism.sections.charts import CHARTS
+from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
+from tribodyn.mechanism.sections.joints import ORBITS
+from tribodyn.views.wear import WEAR_HISTORY
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
@@ -16,10 +17,10 @@ FIGURES: Final[dict[str, Family]] = {
         mechanism.MODE_SHAPES,
         *map(chart.family, CHARTS),
         joints.HODOGRAPHS,
-        joints.ORBITS,
+        orbits.family(ORBITS),
         *joints.MAPS,
-        energy.family(BALANCES),
-        wear.HISTORY,
+        chart.family(ENERGY),
+        chart.family(WEAR_HISTORY),
     )
 }
 

@@ -17,7 +17,7 @@ CHAPTERS: Final = (
         "playback",
         "One cycle",
         "Everything in this part shows the same moment. Move the slider, or press play.",
-        (mechanism.SECTION, ORBITS, PRESSURE.section, FILM_PRESSURE.section),
+        (mechanism.SECTION, ORBITS.section, PRESSURE.section, FILM_PRESSURE.section),
         playback=True,
     ),
     Chapter(
@@ -26,7 +26,7 @@ CHAPTERS: Final = (
         OVER_TIME,
         (*(chart.section for chart in CHARTS), REACTIONS, HODOGRAPHS, ENERGY.section),
     ),
-    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR.section, WEAR_HISTORY)),
+    Chapter("worn", "Wear", "What is worn off the joints.", (WEAR.section, WEAR_HISTORY.section)),
 )
 """Chapters in reading order."""
 

@@ -62,7 +62,7 @@ class Shafts:
     def _rates(self, joint: int) -> FloatArray:
         """Return the velocity of the shaft [m/s], shape (n_t, 3): results hold that of the second body."""
         assert self.case is not None
-        sign = list(self.case.joints.values())[joint].sign
+        sign = self.case.joints[str(self.dataset["joint"].values[joint])].sign
         return np.asarray(sign * self.dataset["relative_velocity"].values[:, joint])
 
 

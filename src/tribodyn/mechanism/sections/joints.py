@@ -12,9 +12,9 @@ from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.sections.charts import Shafts
 from tribodyn.views.bushing import Unrolled, best_cut, shares
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over, over_time
-from tribodyn.views.encode import packed, stepped
 from tribodyn.views.events import peak
 from tribodyn.views.numbers import fitting
+from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.wear import fitting_unit
@@ -147,29 +147,18 @@ def hodographs(dataset: xr.Dataset) -> Payload | None:
     return choice("lines", f"joint{chosen.which}", parts)
 
 
-def orbits(dataset: xr.Dataset) -> Payload | None:
-    """Return the places of the shafts of all joints with clearance, across their axes [µm]."""
+def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
+    """Return the places of the shafts of joints with clearance, across their axes, and which joints."""
     times = playback_times(dataset)
     if times.size < 2:
-        return None
+        return [], ""
     names, chosen, shafts = _names(dataset), real_joints(dataset), Shafts(dataset, case_of(dataset))
-    parts = {names[j]: _orbit(shafts, j, times) for j in chosen.joints}
-    return choice("orbit", f"joint{chosen.which}", parts)
-
-
-def _orbit(shafts: Shafts, joint: int, times: FloatArray) -> dict[str, Any]:
-    x, y = 1e6 * shafts.path(joint)[:, :2].T
-    clearance = 1e6 * float(shafts.dataset["clearance"].values[joint])
-    at_x, at_y = 1e6 * shafts.at(joint, times)[:, :2].T
-    return {
-        "clearance": clearance,
-        "reach": 1.25 * max(clearance, peak(x), peak(y)),
-        "joined": False,
-        "looks": [{"colour": "blue", "dash": "solid", "symbol": "circle"}],
-        "places": ["shaft"],
-        "paths": [{"x": stepped(x, 0.001 * clearance), "y": stepped(y, 0.001 * clearance)}],
-        "at": [{"x": packed(at_x), "y": packed(at_y)}],
+    clearance = 1e6 * dataset["clearance"].values
+    tracks = {
+        j: OrbitPath("shaft", *(1e6 * x[:, :2] for x in (shafts.path(j), shafts.at(j, times))))
+        for j in chosen.joints
     }
+    return [Orbit(names[j], float(clearance[j]), (track,)) for j, track in tracks.items()], chosen.which
 
 
 @dataclass(frozen=True)
@@ -232,13 +221,16 @@ class SurfaceMap:
             if not largest > 0.0:
                 continue
             unit, size = self.unit(largest)
-            cut = best_cut(theta, shares(fields))
-            middle = 0.5e3 * float(place[0] + place[-1])
-            laid = Unrolled(theta, place * 1e3 - middle, cut, 0.0, middle)
-            parts[surface] = laid.payload(
+            parts[surface] = laid_flat(place, theta, fields).payload(
                 fields / size, self.label, unit, lambda peaks: room * float(np.median(peaks[peaks > 0.0]))
             )
         return choice("field", f"surface{real_joints(dataset).which}", parts)
+
+
+def laid_flat(place: FloatArray, theta: FloatArray, fields: FloatArray) -> Unrolled:
+    """Return a surface with rows at places [m] and columns at angles [rad], cut where they are small."""
+    middle = 0.5e3 * float(place[0] + place[-1])
+    return Unrolled(theta, place * 1e3 - middle, best_cut(theta, shares(fields)), 0.0, middle)
 
 
 def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
@@ -284,7 +276,7 @@ REACTIONS: Final = Section(
     widget="choice",
     data=reactions,
 )
-ORBITS: Final = Section(
+ORBITS: Final = OrbitView(
     name="orbits",
     title="Shafts in their bores",
     caption=(
@@ -292,10 +284,9 @@ ORBITS: Final = Section(
         "mark is the centre of the shaft now, the line its path. Beyond the circle the mean planes of the "
         "surfaces overlap."
     ),
-    needs=("displacement", "clearance", "joint"),
-    widget="choice",
-    data=orbits,
+    needs=("displacement", "clearance", "joint", "surface"),
     still="orbits",
+    orbits=orbits,
 )
 PRESSURE: Final = SurfaceMap(
     "pressure_cycle", "pressure", "pressure_maps", "contact pressure", LAID_FLAT, "surface", moving=True

@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures.pressure import draw_map
-from tribodyn.figures.style import SMALL, TEXT, Curves, caption, finish, lines, sheet
+from tribodyn.figures.style import SMALL, TEXT, Curves, caption, colour_bar, finish, lines, sheet
 from tribodyn.papers.cheng_2022.layout import ANGLE, STYLES
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, on_grid, over_clearances
-from tribodyn.views.bushing import best_cut, rolled, unloaded_middle, z_label
+from tribodyn.views.bushing import Unrolled, unrolled
 
 CYCLES: Final = (100, 200, 300, 400)
 DIVISOR: Final = 65.0
@@ -45,31 +45,26 @@ def draw(dataset: xr.Dataset) -> Figure:
     figure = sheet(dataset, "Fig. 19  Wear depth of the bushing with different clearances", 9.6)
     panels = figure.subplots(dataset.sizes["clearance"], 2, sharex=True, width_ratios=(1.3, 1.0))
     depth = dataset["wear_depth"].values / _PICOMETRE
-    theta = dataset["theta"].values
-    cut = best_cut(theta, depth[:, -1].max(axis=(0, 2)))
-    empty = unloaded_middle(dataset, depth[:, -1].max(axis=0))
+    laid = unrolled(dataset, depth[:, -1], theta=dataset["theta"].values)
     for i, (plan, profile) in enumerate(panels):
-        mesh = draw_map(plan, dataset, theta, depth[i, -1], cut, float(depth.max()), empty)
-        plan.set_ylabel(z_label(empty), size=TEXT)
+        mesh = draw_map(plan, laid, depth[i, -1], float(depth.max()))
+        plan.set_ylabel(laid.label, size=TEXT)
         caption(plan, f"({'abcde'[i]}) clearance {dataset['clearance'].values[i] * 1e6:g} µm, 400 cycles")
-        _profiles(profile, dataset, depth[i], cut)
+        _profiles(profile, laid, depth[i])
         profile.set_ylim(0.0, 1.05 * float(depth.max()))
     for axes in panels[-1]:
         axes.set_xlabel(ANGLE, size=TEXT)
-    bar = figure.colorbar(mesh, ax=panels[:, 0], shrink=0.5, aspect=40, pad=0.02, location="bottom")
-    bar.set_label("wear depth [pm]", size=TEXT)
-    bar.ax.tick_params(labelsize=SMALL)
+    colour_bar(figure, mesh, panels[:, 0], "wear depth [pm]", shrink=0.5, location="bottom")
     return figure
 
 
-def _profiles(axes: Axes, dataset: xr.Dataset, depth: FloatArray, cut: float) -> None:
+def _profiles(axes: Axes, laid: Unrolled, depth: FloatArray) -> None:
     """Draw the depth along the deeper edge after 100 to 400 cycles."""
     edge = -1 if depth[-1, :, -1].max() >= depth[-1, :, 0].max() else 0
     curves: Curves = []
     for k, cycles in enumerate(CYCLES):
-        angle, values = rolled(dataset["theta"].values, depth[k], cut)
-        curves.append((values[:, edge], f"{cycles} cycles", *STYLES[k]))
-    lines(axes, angle, curves, width=1.0)
+        curves.append((laid.turned(depth[k])[:, edge], f"{cycles} cycles", *STYLES[k]))
+    lines(axes, laid.angle, curves, width=1.0)
     axes.legend(frameon=False, fontsize=SMALL - 1)
     caption(axes, f"{'top' if edge else 'bottom'} edge")
     finish(axes, y_label="depth [pm]")

@@ -2,26 +2,21 @@
 
 from typing import Final
 
-from tribodyn.figures import chart, contact_force, energy, pressure, trajectory, wear
+from tribodyn.figures import chart, orbits, pressure, wear
 from tribodyn.figures.figure_family import Family
-from tribodyn.papers.cheng_2022.reduced.checks import BALANCES
-from tribodyn.papers.cheng_2022.reduced.figures import mechanism, vane_error
-from tribodyn.papers.cheng_2022.reduced.sections.motion import MOTION, WARMING
-from tribodyn.views.bushing_sections import TILT
+from tribodyn.papers.cheng_2022.reduced.figures import mechanism
+from tribodyn.papers.cheng_2022.reduced.sections import CHARTS
+from tribodyn.views.bushing_sections import ORBIT
+from tribodyn.views.wear import WEAR_HISTORY
 
 FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
-        chart.family(MOTION),
-        chart.family(WARMING),
-        vane_error.FAMILY,
-        contact_force.FAMILY,
-        trajectory.FAMILY,
-        chart.family(TILT),
+        *map(chart.family, CHARTS),
+        orbits.family(ORBIT),
         pressure.FAMILY,
         wear.FAMILY,
-        energy.family(BALANCES),
         mechanism.FAMILY,
-        wear.HISTORY,
+        chart.family(WEAR_HISTORY),
     )
 }

@@ -23,7 +23,7 @@ _WHOLE: Final = balance_chart(
 )
 _CLEARANCE: Final = balance_chart(
     CLEARANCE,
-    name="clearance-energy",
+    name="clearance_energy",
     title="Energy balance of the motion in the clearance",
     caption=(
         "The same for the small motion of the trunnion alone, where an error in the contact heat cannot hide "
@@ -31,30 +31,18 @@ _CLEARANCE: Final = balance_chart(
     ),
 )
 
+CHARTS: Final = (vane_error.ERROR, vane_error.LOOP, CONTACT_FORCE, TILT, MOTION, WARMING, _WHOLE, _CLEARANCE)
+"""In reading order, of the report and of ``figures/``."""
 CHAPTERS: Final = (
     Chapter(
         "playback",
         "One cycle",
         "Everything in this part shows the same moment. Move the slider, or press play.",
-        (mechanism.SECTION, ORBIT, PRESSURE),
+        (mechanism.SECTION, ORBIT.section, PRESSURE),
         playback=True,
     ),
-    Chapter(
-        "time",
-        "Over time",
-        OVER_TIME,
-        (
-            vane_error.ERROR.section,
-            vane_error.LOOP,
-            CONTACT_FORCE.section,
-            TILT.section,
-            MOTION.section,
-            WARMING.section,
-            _WHOLE.section,
-            _CLEARANCE.section,
-        ),
-    ),
-    Chapter("worn", "Wear", "What is worn off the bushing.", (WEAR_MAP, WEAR_HISTORY, WEAR_STAGES)),
+    Chapter("time", "Over time", OVER_TIME, tuple(chart.section for chart in CHARTS)),
+    Chapter("worn", "Wear", "What is worn off the bushing.", (WEAR_MAP, WEAR_HISTORY.section, WEAR_STAGES)),
 )
 """Chapters in reading order."""
 

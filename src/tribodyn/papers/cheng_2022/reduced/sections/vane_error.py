@@ -6,9 +6,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.views.charts import Chart, ChartCurve, Panel, over
+from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.events import direction, series
-from tribodyn.views.section import Payload, Section
 
 DEG: Final = 180.0 / np.pi
 
@@ -27,20 +26,12 @@ def panels(dataset: xr.Dataset) -> list[Panel]:
     ]
 
 
-def branches(dataset: xr.Dataset) -> list[ChartCurve]:
-    """Return the angle error [°] over the ideal vane angle, the two directions apart."""
+def branches(dataset: xr.Dataset) -> list[Panel]:
+    """Return the angle error [°], the two directions apart."""
     off, sense = error(dataset), direction(dataset)
-    return [
-        ChartCurve("forward, angle growing", np.where(sense > 0.0, off, np.nan), "blue"),
-        ChartCurve("reverse, angle falling", np.where(sense < 0.0, off, np.nan), "vermilion", "dash"),
-    ]
-
-
-def _loop(dataset: xr.Dataset) -> Payload | None:
-    ideal = series(dataset, "theta_v_ideal", DEG)
-    if ideal.size < 2:
-        return None
-    return over(ideal, "ideal vane angle [°]", [Panel("angle error [°]", branches(dataset))])
+    forward = ChartCurve("forward, angle growing", np.where(sense > 0.0, off, np.nan), "blue")
+    back = ChartCurve("reverse, angle falling", np.where(sense < 0.0, off, np.nan), "vermilion", "dash")
+    return [Panel("angle error [°]", [forward, back])]
 
 
 ERROR: Final = Chart(
@@ -50,13 +41,13 @@ ERROR: Final = Chart(
     needs=("theta_v", "theta_v_ideal", "omega_v", "omega_v_ideal"),
     panels=panels,
 )
-LOOP: Final = Section(
+LOOP: Final = Chart(
     name="backlash",
     title="Vane-angle error over the vane position",
     caption=(
         "The distance between the forward and the reverse branch is the backlash that a controller would see."
     ),
     needs=("theta_v", "theta_v_ideal", "omega_v_ideal"),
-    widget="lines",
-    data=_loop,
+    panels=branches,
+    abscissa=lambda dataset: ("ideal vane angle [°]", series(dataset, "theta_v_ideal", DEG)),
 )

@@ -1,0 +1,117 @@
+"""Paths of points of a shaft in its clearance circle, seen along the axis: a section and a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+from tribodyn.core.arrays import FloatArray
+from tribodyn.views.encode import packed, stepped
+from tribodyn.views.events import peak
+from tribodyn.views.section import Payload, Section, choice
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+LOOKS: Final = (
+    {"colour": "blue", "dash": "solid", "symbol": "circle"},
+    {"colour": "ink", "dash": "dot", "symbol": "diamond"},
+    {"colour": "vermilion", "dash": "dash", "symbol": "square"},
+)
+"""Looks of points in one circle; top, middle and bottom of a shaft."""
+_FINE: Final = 0.001
+"""Rounding of a path on a page, over the clearance."""
+
+
+@dataclass(frozen=True)
+class OrbitPath:
+    """Motion of one point.
+
+    Attributes
+    ----------
+    name
+        Of the point.
+    path
+        Places over the playback that straight lines may join [µm], shape (n, 2).
+    at
+        Places at the frames [µm], shape (n_frames, 2).
+    """
+
+    name: str
+    path: FloatArray
+    at: FloatArray
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """Points in one clearance circle.
+
+    Attributes
+    ----------
+    name
+        Of the joint.
+    clearance
+        Radius of the circle [µm].
+    tracks
+        Of its points.
+    """
+
+    name: str
+    clearance: float
+    tracks: tuple[OrbitPath, ...]
+
+    @property
+    def reach(self) -> float:
+        """Half of the width that is drawn [µm]."""
+        return 1.25 * max(self.clearance, *(peak(track.path) for track in self.tracks), 1e-3)
+
+    @property
+    def payload(self) -> dict[str, Any]:
+        """Data of the script ``orbit``."""
+        fine = _FINE * self.clearance
+        return {
+            "clearance": self.clearance,
+            "reach": self.reach,
+            "joined": len(self.tracks) > 1,
+            "looks": LOOKS[: len(self.tracks)],
+            "places": [track.name for track in self.tracks],
+            "paths": [
+                dict(zip("xy", (stepped(x, fine) for x in one.path.T), strict=True)) for one in self.tracks
+            ],
+            "at": [dict(zip("xy", map(packed, one.at.T), strict=True)) for one in self.tracks],
+        }
+
+
+@dataclass(frozen=True)
+class OrbitView:
+    """Orbits of a result.
+
+    Attributes
+    ----------
+    name, title, caption, needs, still
+        As those of a :class:`tribodyn.views.section.Section`.
+    orbits
+        Returns the circles, one for each joint, without a playback none, and in words which joints are shown.
+    several
+        Whether a reader chooses among joints.
+    """
+
+    name: str
+    title: str
+    caption: str
+    needs: tuple[str, ...]
+    still: str
+    orbits: Callable[[xr.Dataset], tuple[Sequence[Orbit], str]]
+    several: bool = True
+
+    @property
+    def section(self) -> Section:
+        """The circles on a page."""
+        widget = "choice" if self.several else "orbit"
+        return Section(self.name, self.title, self.caption, self.needs, widget, self._payload, self.still)
+
+    def _payload(self, dataset: xr.Dataset) -> Payload | None:
+        orbits, which = self.orbits(dataset)
+        parts = {orbit.name: orbit.payload for orbit in orbits}
+        return choice("orbit", f"joint{which}", parts) if self.several else next(iter(parts.values()), None)
