@@ -290,6 +290,8 @@ def test_paper_gets_stills_and_no_controls(opened: Opened, report: Path, tmp_pat
     assert page.locator("#motion .still img").is_visible()
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     assert reader.overflow() == 0
+    tables = "[...document.querySelectorAll('.wide')]"
+    assert page.evaluate(f"{tables}.every((one) => one.scrollWidth <= one.clientWidth)")
     reader.keep_picture("report-print")
     page.pdf(path=tmp_path / "report.pdf", format="A4")
     assert (tmp_path / "report.pdf").stat().st_size > 50_000
