@@ -307,6 +307,7 @@ def test_every_kind_of_mechanism_has_its_workbench(
         # The first picture shines through.
         assert 20.0 in person.plot(figure, "plot.plotted.ghosts.map(({data}) => data.clearance)")
         person.draw_everything()
+        assert person.page.locator("#views figure:visible:not(:has(canvas, table))").count() == 0
         assert person.faults() == []
         person.keep_picture(f"workbench-{case[0]}")
         person.page.close()
