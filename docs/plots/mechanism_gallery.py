@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 import tribodyn as td
 from tribodyn.mechanism.descriptor import GALLERY, Template
 from tribodyn.mechanisms.results import known, summarise
-from tribodyn.views.numbers import fitting, in_words
+from tribodyn.views.numbers import fitting, in_words, interval
 
 FENCE: Final = "```"
 SOURCE: Final = Path(__file__).parents[2] / "src" / "tribodyn" / "mechanism"
@@ -53,7 +53,9 @@ def answered(name: str, template: Template, target: Path) -> list[str]:
     answers = {}
     for key in template.results:
         unit, factor = fitting(found[key].unit, [summary[key]])
-        answers[found[key].label_in(summary)] = f"{in_words(summary[key] * factor, found[key].digits)} {unit}"
+        answers[found[key].label_in(summary)] = (
+            f"{interval(summary, key, factor) or in_words(summary[key] * factor, found[key].digits)} {unit}"
+        )
     return list(section(name, template, answers))
 
 

@@ -59,17 +59,23 @@ class Accessor:
 
     @property
     def numbers(self) -> pd.DataFrame:
-        """The key results as a table: by name, with label, part, value and unit."""
+        """The key results as a table: by name, with label, part, value, ends of the interval and unit."""
         import pandas as pd
 
         from tribodyn.mechanisms.results import known
 
         summary = self.summary
         rows = {
-            name: (one.label_in(summary), one.part, summary[name], one.unit)
+            name: (
+                one.label_in(summary),
+                one.part,
+                summary[name],
+                *summary["intervals"].get(name, (np.nan, np.nan)),
+                one.unit,
+            )
             for name, one in known(summary, str(summary.get("kind", ""))).items()
         }
-        columns = ["label", "part", "value", "unit"]
+        columns = ["label", "part", "value", "low", "high", "unit"]
         return pd.DataFrame.from_dict(rows, orient="index", columns=columns).rename_axis("name")
 
     def sel(self, **chosen: str) -> xr.Dataset:
@@ -265,7 +271,7 @@ def _show_pictures() -> None:
 def _page(summary: dict[str, Any]) -> Iterator[str]:
     from tribodyn.mechanisms.results import known
     from tribodyn.results.summary import caution
-    from tribodyn.views.numbers import fitting, rounded
+    from tribodyn.views.numbers import fitting, interval, rounded
 
     yield f"<strong>{escape(str(summary.get('title', '')))}</strong>"
     warning = summary.get("doubtful")
@@ -279,6 +285,7 @@ def _page(summary: dict[str, Any]) -> Iterator[str]:
         unit, factor = fitting(key_result.unit, [value])
         shown = isinstance(value, float)
         number = f"{rounded(value * factor, key_result.digits):.4g}" if shown else str(value)
+        number = interval(summary, name, factor) or number
         label = escape(key_result.label_in(summary))
         yield f"<tr><td style='text-align:left'>{label}</td><td>{number} {escape(unit)}</td></tr>"
     yield "</table>"

@@ -210,6 +210,10 @@ class Case(Group):
         """Return the joints, as in names of numbers, whose wear rate nobody chose; an empty name for all."""
         return ()
 
+    def wear_scatter(self) -> dict[str, tuple[float, float]]:
+        """Return the interval of the wear of equal joints over that at the rate, by joint, ``""`` for all."""
+        return {}
+
     def idle(self) -> tuple[str, ...]:
         """Return the paths of keys that others override; by default there are none."""
         return ()

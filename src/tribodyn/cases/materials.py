@@ -27,13 +27,15 @@ OF_SURFACE: Final = {
 OF_PAIR: Final = {
     "friction_coefficient": ("", ("joint.friction_coefficient", "friction_coefficient")),
     "specific_wear_rate": ("m^2/N", ("wear.specific_wear_rate",)),
+    "wear_scatter": ("", ()),
 }
 """Properties of sliding against steel: unit, and keys, if a case has them, that take those of the bushing."""
 SURFACES: Final = ("trunnion", "bushing")
 _UNITS: Final = OF_SURFACE | {name: unit for name, (unit, _) in OF_PAIR.items()}
 _WEAR_RATE: Final = "specific_wear_rate"
+_SCATTER: Final = "wear_scatter"
 _UNNAMED: Final = "ptfe-liner"
-"""Whose range of wear rates holds for a liner without a name: many commercial and experimental liners."""
+"""Whose range of wear rates and whose scatter hold for a liner without a name or without data of its own."""
 _ROOM: Final = 293.15
 _FAR: Final = 50.0
 """Distance [K] from the temperatures of a property from which on it is reported."""
@@ -109,13 +111,13 @@ class Material:
     @property
     def unknown(self) -> tuple[str, ...]:
         """Properties that no source gives, by the names of keys."""
-        return tuple(name for name in _UNITS if name not in self.properties)
+        return tuple(name for name in _UNITS if name not in self.properties and name != _SCATTER)
 
 
-def life_factor(given: object, material: str | None, at: float) -> float:
-    """Return the ratio of lives at both ends of the range of wear rates, one digit; NaN for a known rate.
+def wear_scatter(given: object, material: str | None, at: float) -> tuple[float, float]:
+    """Return the interval of the wear of equal parts, over that at the rate of a case [1].
 
-    Without a named material it is that of the liners of one laboratory.
+    It contains the scatter of equal parts and, for the middle of a range of published rates, that range.
 
     Parameters
     ----------
@@ -126,14 +128,16 @@ def life_factor(given: object, material: str | None, at: float) -> float:
     at
         Specific wear rate that the case holds [m²/N].
     """
-    if material is None:
-        known = MATERIALS[_UNNAMED].properties[_WEAR_RATE] if given is None else None
-    else:
-        known = MATERIALS[material].properties.get(_WEAR_RATE)
-        known = known if known is not None and known.at() == at else None
-    if known is None or known.spread is None:
-        return math.nan
-    return float(f"{known.spread[1] / known.spread[0]:.1g}")
+    known = MATERIALS[material or _UNNAMED].properties
+    scatter, rate = (
+        known.get(_SCATTER, MATERIALS[_UNNAMED].properties[_SCATTER]).spread,
+        known.get(_WEAR_RATE),
+    )
+    assert scatter is not None
+    published = given is None if material is None else rate is not None and rate.at() == at
+    middle = 1.0 if rate is None else rate.at()
+    ends = rate.spread if rate is not None and rate.spread is not None and published else (middle, middle)
+    return min(scatter[0], ends[0] / middle), max(scatter[1], ends[1] / middle)
 
 
 def between(places: Sequence[float], values: Sequence[float], at: float) -> float:

@@ -16,7 +16,7 @@ from tribodyn.cases.joint_keys import PlainJoint
 from tribodyn.cases.keys import Key, Value, keys_of
 from tribodyn.cases.materials import MATERIAL, MATERIALS, SURFACES, Property, taken, warmth, written
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.tables import keys_in
+from tribodyn.cases.tables import keys_in, value_at
 from tribodyn.cases.temperature import Temperature
 from tribodyn.cases.units import RZ_OVER_RA
 
@@ -52,6 +52,10 @@ class RoughCase(Case):
     def surface_pair(self) -> SurfacePair:
         """The two surfaces in contact, as contact laws take them."""
         return self.surfaces.pair(self.asperities)
+
+    def wear_scatter(self) -> dict[str, tuple[float, float]]:
+        """Return the interval of the wear of equal parts, over that at the rate; none where nothing wears."""
+        return {"": wear_scatter(self)} if _WEAR in keys_in(self) else {}
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return the checks of the contact law."""
@@ -138,6 +142,21 @@ def has_wear_rate(case: Case, prefix: str = "") -> bool:
     name = case.at(f"{prefix}surfaces.bushing.{MATERIAL}")
     known = name is not None and "specific_wear_rate" in MATERIALS[str(name)].properties
     return known or case.given(f"{prefix}{_WEAR}") is not None
+
+
+def wear_scatter(case: Case, prefix: str = "") -> tuple[float, float]:
+    """Return the interval of the wear of equal parts, over that at the rate of a set of surfaces [1]."""
+    from tribodyn.wear.scatter import of_repeats
+
+    for begin in dict.fromkeys((prefix, "")):
+        repeats, scatter = (value_at(case, f"{begin}wear.{name}") for name in ("repeats", "scatter"))
+        if repeats is not None:
+            return of_repeats(repeats)
+        if scatter is not None:
+            return float(scatter[0]), float(scatter[1])
+    name, rate = case.at(f"{prefix}surfaces.bushing.{MATERIAL}"), f"{prefix}{_WEAR}"
+    at = value_at(case, rate)
+    return materials.wear_scatter(case.given(rate), None if name is None else str(name), at)
 
 
 @dataclass(frozen=True)

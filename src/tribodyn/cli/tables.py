@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.quoting import GREY, PLAIN
-from tribodyn.views.numbers import columns_of, fitting, rounded
+from tribodyn.views.numbers import columns_of, fitting, interval, rounded
 
 if TYPE_CHECKING:
     from tribodyn.results.summary import KeyResult
@@ -64,8 +64,9 @@ def _lines(key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) 
     width = max(map(len, labels.values()), default=0)
     for name, one in key_results.items():
         unit, factor = fitting(one.unit, [summary[name]])
-        line = f"  {labels[name]:<{width}}  {_number(summary[name], one.digits, factor)} {unit}".rstrip()
-        yield grey(line, _mark(name, summary))
+        value, ends = _number(summary[name], one.digits, factor), interval(summary, name, factor)
+        shown = f"{ends:>9} {unit} (nominal {value.strip()})" if ends else f"{value} {unit}"
+        yield grey(f"  {labels[name]:<{width}}  {shown}".rstrip(), _mark(name, summary))
 
 
 def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, object]) -> Iterator[str]:
@@ -73,7 +74,7 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
     columns = {f"{one.label} {one.unit}".strip(): one for one in columns_of(key_results, summary)}
     cells = {
         (h.part, heading): grey(
-            f"{_number(summary[name], h.digits, column.factor):>{_COLUMN}}", _mark(name, summary)
+            f"{_of_part(name, h, column.factor, summary):>{_COLUMN}}", _mark(name, summary)
         )
         for heading, column in columns.items()
         for name, h in column.members.items()
@@ -88,6 +89,11 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
         for part in parts:
             row = (cells.get((part, name), f"{'–':>{_COLUMN}}") for name in shown)
             yield f"  {part:<{width}}  {'  '.join(row)}"
+
+
+def _of_part(name: str, one: KeyResult, factor: float, summary: Mapping[str, object]) -> str:
+    """Return a number of a part; of wear its interval."""
+    return interval(summary, name, factor) or _number(summary[name], one.digits, factor)
 
 
 def _room(taken: int) -> int:
@@ -135,6 +141,8 @@ def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iter
         yield from _points(record["points"], numbers, every=bool(shown))
     yield from _cautions(record["points"])
     yield from _limits(record)
+    if record["statistics"] or record.get("limits"):
+        yield from _scatter(record["points"], _key_results(given, record["kind"], every=bool(shown)))
     yield from _sensitivities(record, shown)
 
 
@@ -148,6 +156,16 @@ def _cautions(points: Sequence[Mapping[str, Any]]) -> Iterator[str]:
         yield caution(point["doubtful"], f"the numbers at {at}")
     if len(doubtful) > _MOST_WARNINGS:
         yield f"... nor those of {len(doubtful) - _MOST_WARNINGS} more points"
+
+
+def _scatter(points: Sequence[Mapping[str, Any]], numbers: Mapping[str, KeyResult]) -> Iterator[str]:
+    """Report the intervals of wear and lives, whose statistics are those at the nominal wear rate."""
+    for name, one in numbers.items():
+        ends = next((p["intervals"][name] for p in points if name in p.get("intervals", ())), None)
+        value = next((p[name] for p in points if name in p.get("intervals", ())), 0.0)
+        if ends and value:
+            low, high = (f"{end / value:.2g}" for end in ends)
+            yield f"{one.label}: {low} to {high} times these numbers for equal parts"
 
 
 def _limits(record: Mapping[str, Any]) -> Iterator[str]:
@@ -233,7 +251,9 @@ def _cells(point: Mapping[str, Any], shown: Mapping[str, float]) -> Iterator[str
     if point["failure"]:
         yield f"no result: {point['failure']}"[: (_COLUMN + 2) * len(shown)]
         return
-    yield from (_cell(point.get(name), factor) for name, factor in shown.items())
+    for name, factor in shown.items():
+        ends = interval(point, name, factor)
+        yield f"{ends:>{_COLUMN}}" if ends else _cell(point.get(name), factor)
 
 
 def _heading(varied: Mapping[str, tuple[str, int]], shown: Mapping[str, str]) -> Iterator[str]:

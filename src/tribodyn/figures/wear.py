@@ -13,7 +13,7 @@ from tribodyn.figures.figure_family import Family
 from tribodyn.figures.pressure import draw_map
 from tribodyn.views.bushing import WALL, Unrolled, unrolled
 from tribodyn.views.events import signed
-from tribodyn.views.wear import fitting_unit
+from tribodyn.views.wear import WORN, fitting_unit
 
 TITLE: Final = "Wear depth of the bushing"
 
@@ -61,11 +61,7 @@ def _profiles(axes: Axes, laid: Unrolled, depth: FloatArray) -> None:
 FAMILY: Final = Family(
     name="wear_depth",
     title=TITLE,
-    caption=(
-        "Depth worn off the bushing: after the cycles of the wear campaign, or else a linear estimate for "
-        "this run, in which the worn shape does not change the pressure. Above: the bushing laid flat. "
-        "Below: around its edges and its middle."
-    ),
+    caption=f"{WORN} Above: the bushing laid flat. Below: around its edges and its middle.",
     needs=("wear_depth", "theta", "z"),
     draw=draw,
 )

@@ -19,7 +19,7 @@ from tribodyn.cases.joint_keys import FilmGridKeys
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.loads import Doors, OwnFunction
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_surfaces
+from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_surfaces, wear_scatter
 from tribodyn.cases.tables import keys_at
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
@@ -192,6 +192,14 @@ class MechanismCase(_WithElements):
             for name, prefix in self._surfaces_of_joints().items()
             if not has_wear_rate(self, prefix)
         )
+
+    def wear_scatter(self) -> dict[str, tuple[float, float]]:
+        """Return the interval of the wear of equal joints over that at the rate; the widest for all."""
+        found = {
+            plain(name): wear_scatter(self, prefix) for name, prefix in self._surfaces_of_joints().items()
+        }
+        lows, highs = zip(*found.values(), (1.0, 1.0), strict=True)
+        return {"": (min(lows), max(highs)), **found}
 
     def _surfaces_of_joints(self) -> dict[str, str]:
         """Return the prefix of the surfaces' keys of each joint with clearance, by its name."""

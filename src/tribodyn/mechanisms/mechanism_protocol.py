@@ -131,6 +131,10 @@ class SystemCase(Protocol):
         """Return the joints whose wear rate nobody chose, see :class:`~tribodyn.cases.case.Case`."""
         ...
 
+    def wear_scatter(self) -> Mapping[str, tuple[float, float]]:
+        """Return the interval of the wear of equal joints, see :class:`~tribodyn.cases.case.Case`."""
+        ...
+
     def remarks(self) -> Remarks:
         """Return remarks on its values."""
         ...

@@ -19,7 +19,7 @@ from tribodyn.results.atomic import write_text
 from tribodyn.results.store import POINTS, RESULT
 from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common, overlays
-from tribodyn.views.numbers import fitting, in_words
+from tribodyn.views.numbers import fitting, in_words, interval
 from tribodyn.views.section import Chapter
 
 MOST: Final = 6
@@ -243,7 +243,11 @@ def _row(
         "unit": unit,
         "group": key_result.group,
         "cells": [
-            {**_cell(value, shown[0], key_result, grid), "doubtful": bool(summary["doubtful"])}
+            {
+                **_cell(value, shown[0], key_result, grid),
+                **({"value": ends} if (ends := interval(summary, name, factor)) else {}),
+                "doubtful": bool(summary["doubtful"]),
+            }
             for value, summary in zip(shown, summaries, strict=True)
         ],
     }

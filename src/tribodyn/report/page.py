@@ -22,7 +22,7 @@ from tribodyn.report.figures import figures_of
 from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.summary import caution
 from tribodyn.views.encode import inside_page
-from tribodyn.views.numbers import as_read, columns_of, fitting, in_words
+from tribodyn.views.numbers import as_read, columns_of, fitting, in_words, interval
 from tribodyn.views.playback import clock
 
 FOLDER: Final = "assumptions"
@@ -134,7 +134,7 @@ def number(key_result: KeyResult, summary: Mapping[str, Any], name: str) -> Numb
     unit, factor = fitting(key_result.unit, [value])
     return {
         "label": key_result.label_in(summary),
-        "value": _scaled(value, factor, key_result.digits),
+        "value": interval(summary, name, factor) or _scaled(value, factor, key_result.digits),
         "unit": unit,
         "meaning": key_result.meaning,
         "assumed": name in summary.get("assumed", ()),
@@ -176,7 +176,8 @@ def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
     columns = columns_of(key_results, summary)
     cells = {
         (one.part, number): {
-            "value": _scaled(summary[name], column.factor, one.digits),
+            "value": interval(summary, name, column.factor)
+            or _scaled(summary[name], column.factor, one.digits),
             "assumed": name in summary.get("assumed", ()),
         }
         for number, column in enumerate(columns)

@@ -39,6 +39,8 @@ ROWS_HASH: Final = "rows_sha256"
 """SHA-256 of its rows."""
 ASSUMED_WEAR: Final = "assumed_wear"
 """Joints, as in names of numbers, whose wear rate nobody chose; an empty name for all."""
+WEAR_SCATTER: Final = ("wear_scatter_least", "wear_scatter_largest")
+"""Least and largest wear of equal joints over that at the rate, by joint and an empty name for all."""
 MODEL: Final = "model"
 """The model file of the mechanism that a case of another kind stands for."""
 NOT_KEPT: Final = "not_kept"
@@ -60,6 +62,7 @@ ATTRIBUTES: Final[dict[str, str]] = {
     "notes": TEXTS,
     "varied": TEXTS,
     ASSUMED_WEAR: TEXTS,
+    **dict.fromkeys(WEAR_SCATTER, FACTS),
     NOT_KEPT: TEXTS,
 }
 """Attributes of a dataset by name."""

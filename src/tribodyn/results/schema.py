@@ -46,6 +46,8 @@ LONGEST: Final = 1_000_000
 """Length of a text, at most."""
 LISTS: Final = ("warnings", "notes", "assumed")
 """Keys of a summary that hold lists."""
+INTERVALS: Final = "intervals"
+"""Key of a summary that holds the ends of intervals, by key result."""
 MOST_VARIABLES: Final = 200
 """Variables of a sweep, at most: each is drawn."""
 _ADDED: Final = ("doubtful",)
@@ -85,18 +87,26 @@ def check(dataset: xr.Dataset, kinds: Kinds) -> None:
 def is_summary(content: object) -> bool:
     """Tell whether something read as JSON is the summary of a run: texts and finite numbers by name.
 
-    Its ``warnings`` are a list of texts.
+    Its ``warnings`` are a list of texts, its ``intervals`` pairs of numbers by name.
     """
     return (
         isinstance(content, dict)
         and "status" in content
         and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure"))
         and all(_are_texts(content.get(name, [])) for name in LISTS)
+        and _are_intervals(content.get(INTERVALS, {}))
         and all(
             _of_form(value, TEXT) or _is_number(value, NUMBER)
             for name, value in content.items()
-            if name not in LISTS
+            if name not in (*LISTS, INTERVALS)
         )
+    )
+
+
+def _are_intervals(content: object) -> bool:
+    return isinstance(content, dict) and all(
+        isinstance(ends, list) and len(ends) == 2 and all(_is_number(end, NUMBER) for end in ends)
+        for ends in content.values()
     )
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, json_attribute
+from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, WEAR_SCATTER, json_attribute
 from tribodyn.results.reading import column, reading_once, statistic
 
 if TYPE_CHECKING:
@@ -80,14 +80,15 @@ class KeyResult:
         return replace(self, label=f"{self.label}, {part}", part=part, column=self.label)
 
 
-Summary: TypeAlias = dict[str, float | int | str | list[str]]
+Interval: TypeAlias = tuple[float, float]
+Summary: TypeAlias = dict[str, float | int | str | list[str] | dict[str, Interval]]
 """Key results and texts of a run, as in ``summary.json``."""
 
 
 class _Numbers(Summary):
     """Key results by name; earlier names find those of today."""
 
-    def __missing__(self, name: str) -> float | int | str | list[str]:
+    def __missing__(self, name: str) -> float | int | str | list[str] | dict[str, Interval]:
         """Return the key result that had another name earlier."""
         if (now := name_today(name)) == name:
             raise KeyError(name)
@@ -143,6 +144,9 @@ EFFORT: Final[dict[str, KeyResult]] = {
 
 _OF_WEAR: Final = re.compile(r"wear_(depth_)?rate|(wear|bore|shaft)_life")
 """Names of wear rates and lives by wear."""
+_LIFE: Final = re.compile(r"(wear|bore|shaft|error)_life_cycles")
+_WORN: Final = re.compile(r"(partner_)?wear_(depth|rate)_|worn_volume_")
+"""Beginnings of names of numbers that go with the inverse of the wear rate, and with the wear rate."""
 DOUBTFUL: Final = 0.05
 """Energy that a run misses, over the largest term of its balance, beyond which no number should be used."""
 
@@ -178,7 +182,7 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
         Kind, title, ``status`` (``"complete"`` or ``"failed"``), ``failure`` (empty when there is none),
         ``doubtful`` (see :func:`warning`), the lists of ``warnings`` and ``notes``, the
         hashes of data and rows, then numbers by name; at last ``assumed``, the names of wear rates and lives
-        that follow from a material that nobody chose.
+        that follow from a material that nobody chose, and ``intervals``, of wear and lives by name.
     """
     failure = str(dataset.attrs.get("failure", ""))
     summary: Summary = _Numbers(
@@ -198,10 +202,33 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
             value = _number(key_result, dataset)
             if math.isfinite(value):
                 summary[name] = int(value) if key_result.count else value
-    summary["assumed"] = _assumed(
-        dataset, {name: key_results[name] for name in summary if name in key_results}
-    )
+    there = {name: key_results[name] for name in summary if name in key_results}
+    least, largest = (json_attribute(dataset, name, {}) for name in WEAR_SCATTER)
+    scatter = {joint: (low, largest[joint]) for joint, low in least.items()}
+    summary["assumed"] = _assumed(dataset, there)
+    summary["intervals"] = {
+        name: (ends[0] * float(number), ends[1] * float(number))
+        for name, one in there.items()
+        if isinstance(number := summary[name], float)
+        and (ends := wear_interval(name, one.part, scatter)) is not None
+    }
     return summary
+
+
+def wear_interval(name: str, part: str, scatter: Mapping[str, Interval]) -> Interval | None:
+    """Return the interval of a key result of wear over its value [1]; None for any other number.
+
+    Parameters
+    ----------
+    name, part
+        Of the key result.
+    scatter
+        Least and largest wear of equal joints over that at the rate, by joint and an empty name for all.
+    """
+    low, high = scatter.get(part, scatter.get("", (1.0, 1.0)))
+    if low == high or not (_LIFE.match(name) or _WORN.match(name)):
+        return None
+    return (1.0 / high, 1.0 / low) if _LIFE.match(name) else (low, high)
 
 
 def _assumed(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> list[str]:

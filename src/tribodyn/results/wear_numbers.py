@@ -138,8 +138,7 @@ WEAR_NUMBERS: Final[dict[str, KeyResult]] = {
         "Life, longest over shortest",
         "",
         "Wear",
-        "Lives at both ends of the range of wear rates, over each other: of the named material, or of the "
-        "liners of one laboratory where nobody gave a rate or a material.",
+        "Lives at both ends of the interval of wear, over each other.",
         lambda d: float(d.attrs["wear_life_factor"]),
         digits=1,
     ),

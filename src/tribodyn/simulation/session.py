@@ -21,7 +21,7 @@ from tribodyn.mechanisms.mechanism_protocol import (
 )
 from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
-from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH
+from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, WEAR_SCATTER
 from tribodyn.simulation import session as hashes
 
 if TYPE_CHECKING:
@@ -90,6 +90,10 @@ class Session:
                 **part.attributes,
                 **more.attributes,
                 ASSUMED_WEAR: list(self.case.assumed_wear()),
+                **{
+                    name: {joint: ends[k] for joint, ends in self.case.wear_scatter().items()}
+                    for k, name in enumerate(WEAR_SCATTER)
+                },
                 "time_reached": float(run.solution.t_end),
                 "failure": failure,
                 "warnings": [*said.warnings, *part.warnings, *more.warnings],

@@ -11,9 +11,6 @@ from typing import TYPE_CHECKING, Final, cast
 import numpy as np
 
 from tribodyn.cases import groups
-from tribodyn.cases.case import Case
-from tribodyn.cases.materials import life_factor
-from tribodyn.cases.tables import keys_in, value_at
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearingCase, WearingSystem
 from tribodyn.mechanisms.wear_state import Carried, Worn
@@ -37,8 +34,8 @@ def simulate_plain(session: Session) -> xr.Dataset:
     of_outputs, notes = _by_error(system, run, cycles, depth)
     life = _linear_life(wear, cycles, depth, of_outputs)
     if life:
-        life |= _stated_factor(cast(Case, session.case))
-    part = _worn(system, depth, wear, life)
+        life |= _stated_factor(cast(WearingCase, session.case))
+    part = _worn(system, depth, cast(WearingCase, session.case), life)
     fields = {**part.fields, **of_outputs}
     return session.dataset(run, replace(part, fields=fields, notes=[*part.notes, *notes]))
 
@@ -63,8 +60,8 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
     campaign, cycle = run_campaign(cycles, cycles.plan, resumed, keep)
     attributes: dict[str, object] = {"wear_cycles_reached": campaign.cycles}
     if math.isfinite(campaign.life):
-        attributes |= {"wear_life_cycles": campaign.life} | _stated_factor(cast(Case, session.case))
-    part = _worn(cycles.system, campaign.depth, cycles.case.wear, attributes)
+        attributes |= {"wear_life_cycles": campaign.life} | _stated_factor(cast(WearingCase, session.case))
+    part = _worn(cycles.system, campaign.depth, cycles.case, attributes)
     more = replace(
         part,
         coordinates={
@@ -101,41 +98,50 @@ def _of_partner(system: WearingSystem, depth: FloatArray, volume: float) -> Resu
 
 
 def _worn(
-    system: WearingSystem, depth: FloatArray, wear: groups.Wear, attributes: Mapping[str, object]
+    system: WearingSystem, depth: FloatArray, case: WearingCase, attributes: Mapping[str, object]
 ) -> ResultPart:
     """Return the wear in a result after its run; ``depth`` at the nodes [m]."""
     if not depth.size:
         return ResultPart()
+    limit = case.wear.depth_limit
     volume = worn_volume(depth, system.nodes.area)
     partner = _of_partner(system, depth, volume)
     return ResultPart(
         fields={"wear_depth": system.as_field(depth), **partner.fields},
         attributes={
             "worn_volume": volume,
-            **({} if wear.depth_limit is None else {"wear_depth_limit": wear.depth_limit}),
+            **({} if limit is None else {"wear_depth_limit": limit}),
             **attributes,
         },
-        notes=[*partner.notes, *_deepest(system, depth, wear.depth_limit), *_uncertain(attributes)],
+        notes=[*partner.notes, *_deepest(system, depth, case), *_uncertain(case, attributes)],
     )
 
 
-def _deepest(system: WearingSystem, depth: FloatArray, limit: float | None) -> list[str]:
+def _deepest(system: WearingSystem, depth: FloatArray, case: WearingCase) -> list[str]:
     """Return the deepest wear and its distance from the depth limit, in words; nothing without one."""
+    limit = case.wear.depth_limit
     if limit is None or not depth.any():
         return []
     node = int(np.argmax(depth))
     share = 100.0 * float(depth.ravel()[node]) / limit
-    return [f"Worn deepest is {system.part_of(node)}: {share:.3g} % of wear.depth_limit."]
+    low, high = (f"{share * end:.2g}" for end in _scatter(case))
+    return [f"Worn deepest is {system.part_of(node)}: {low} to {high} % of wear.depth_limit."]
 
 
-def _uncertain(attributes: Mapping[str, object]) -> list[str]:
-    """Return the uncertainty of a life in words; nothing where its wear rate is known."""
+def _uncertain(case: WearingCase, attributes: Mapping[str, object]) -> list[str]:
+    """Return the scatter of a life in words; nothing without a life."""
     if "wear_life_factor" not in attributes:
         return []
+    low, high = (f"{end:.2g}" for end in _scatter(case))
     return [
-        f"Published wear rates of such surfaces differ by a factor of {attributes['wear_life_factor']:g}, "
-        "and so does the life. Give a measured wear.specific_wear_rate."
+        f"Wear and lives are intervals: equal parts wear {low} to {high} times as fast as the rate says. "
+        "Give wear.repeats, the measured wear of equal parts."
     ]
+
+
+def _scatter(case: WearingCase) -> tuple[float, float]:
+    """Return the interval of the wear of equal parts over that at the rate [1]."""
+    return case.wear_scatter().get("", (1.0, 1.0))
 
 
 def _linear_life(
@@ -190,15 +196,10 @@ def _by_error(
     return {"output_life": np.array(list(found.values()))}, [note]
 
 
-def _stated_factor(case: Case) -> dict[str, object]:
-    """Return the factor that a life is stated with; nothing where the wear rate is known."""
-    rate, material = "wear.specific_wear_rate", "surfaces.bushing.material"
-    held = keys_in(case)
-    if rate not in held or material not in held:
-        return {}
-    name = case.at(material)
-    factor = life_factor(case.given(rate), None if name is None else str(name), value_at(case, rate))
-    return {} if math.isnan(factor) else {"wear_life_factor": factor}
+def _stated_factor(case: WearingCase) -> dict[str, object]:
+    """Return the longest over the shortest life of equal parts, one digit."""
+    low, high = _scatter(case)
+    return {"wear_life_factor": float(f"{high / low:.1g}")}
 
 
 class _Cycles:
@@ -276,7 +277,8 @@ def _not_reached(case: WearingCase, campaign: Campaign) -> list[str]:
     if not lives:
         return []
     first = min(lives, key=lambda name: lives[name])
+    slow, fast = _scatter(case)
     return [
-        f"The bushing was not worn out: at its last rate it would take {lives[first]:.2g} more cycles to "
-        f"{wear.LIMIT_OF[first]}."
+        f"The bushing was not worn out: at its last rate it would take {lives[first] / fast:.2g} to "
+        f"{lives[first] / slow:.2g} more cycles to {wear.LIMIT_OF[first]}."
     ]

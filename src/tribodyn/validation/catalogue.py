@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from pathlib import Path
 from typing import Any, Final, cast
 
 import numpy as np
@@ -31,8 +32,15 @@ NAMES: Final = (
     "dry_liners",
     "vsv_practice",
     "published_statements",
+    "friction_damper_backlash",
+    "hip_simulator_wear",
+    "cycloid_reducer_play",
+    "pin_on_disc_pps",
+    "published_statements_2",
 )
 """Every set by its folder in ``sets``."""
+OUTSIDE: Final = Path(__file__).parents[3] / "data"
+"""Data under licences of their own: in the repository, in no package."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +90,20 @@ class ValidationSet:
         """The folder with its files."""
         return files(__package__) / "sets" / self.name
 
+    @property
+    def data(self) -> Traversable:
+        """The folder with its README and tables: its own, or one of another licence outside the package."""
+        licence = self.table.get("licence")
+        return self.folder if licence is None else OUTSIDE / str(licence) / self.name
+
+    @property
+    def missing(self) -> str:
+        """Why there are no data, in a sentence; empty where they are there."""
+        licence = self.table.get("licence")
+        if licence is None or self.data.is_dir():
+            return ""
+        return f"{self.name}: its data, under {licence}, are in the repository and not in this package."
+
     @cached_property
     def table(self) -> Mapping[str, Any]:
         """Content of ``set.toml``."""
@@ -117,12 +139,12 @@ class ValidationSet:
 
     def rows(self, file: str) -> list[dict[str, str]]:
         """Return the rows of a CSV file of the set by the names of its columns."""
-        text = (self.folder / file).read_text(encoding="utf-8")
+        text = (self.data / file).read_text(encoding="utf-8")
         return list(csv.DictReader(text.splitlines()))
 
     def readme(self) -> str:
         """Return the README of the set."""
-        return (self.folder / "README.md").read_text(encoding="utf-8")
+        return (self.data / "README.md").read_text(encoding="utf-8")
 
     def run(self) -> Outcome:
         """Compute the measured quantity."""

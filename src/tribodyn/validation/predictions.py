@@ -85,7 +85,7 @@ def register() -> list[dict[str, Any]]:
 def fingerprint(one: ValidationSet) -> str:
     """Return the hash of the inputs and data files of a set."""
     digest = hashlib.sha256(repr(sorted(one.table.get("inputs", {}).items())).encode())
-    for file in sorted(one.folder.iterdir(), key=lambda entry: entry.name):
+    for file in sorted(one.data.iterdir(), key=lambda entry: entry.name):
         if file.name.endswith(".csv"):
             digest.update(file.name.encode())
             digest.update(file.read_bytes())

@@ -89,6 +89,12 @@ def in_words(value: object, digits: int = 4) -> str:
     return f"{text} × 10{str(int(power)).translate(_RAISED)}" if power else text
 
 
+def interval(summary: Mapping[str, Any], name: str, factor: float = 1.0) -> str:
+    """Return the interval of a key result in words, times the factor of a unit; empty where it has none."""
+    ends = summary.get("intervals", {}).get(name)
+    return " to ".join(in_words(end * factor, 2) for end in ends) if ends else ""
+
+
 @dataclass(frozen=True)
 class Column:
     """Numbers of several parts, such as joints, in one unit.

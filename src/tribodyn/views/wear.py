@@ -81,13 +81,15 @@ def _history(dataset: xr.Dataset) -> list[Panel]:
     return drawn
 
 
+WORN: Final = (
+    "Wear depth at the nominal wear rate: after the cycles of the wear campaign, or else a linear estimate "
+    "for this run, in which the worn shape does not change the pressure."
+)
+"""Caption of maps of the wear depth."""
 WEAR_MAP: Final = Section(
     name="wear",
     title="Wear depth of the bushing",
-    caption=(
-        "Depth worn off the bushing: after the cycles of the wear campaign, or else a linear estimate for "
-        "this run, in which the worn shape does not change the pressure."
-    ),
+    caption=WORN,
     needs=("wear_depth", "theta", "z"),
     widget="field",
     data=_map,

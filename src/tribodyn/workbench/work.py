@@ -85,7 +85,10 @@ def shown(dataset: xr.Dataset) -> dict[str, Any]:
     summary = summarise(dataset)
     return {
         "results": {name: summary[name] for name in known(summary, str(summary["kind"]))},
-        **{name: summary[name] for name in ("failure", "doubtful", "warnings", "notes", "assumed")},
+        **{
+            name: summary[name]
+            for name in ("failure", "doubtful", "warnings", "notes", "assumed", "intervals")
+        },
         "time_reached": float(dataset.attrs.get("time_reached", 0.0)),
         "events": _events(dataset),
         "clock": clock(dataset),

@@ -1,12 +1,10 @@
 """The library of materials, and what a case takes from it."""
 
-import math
-
 import pytest
 
 import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
-from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE, life_factor
+from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE, wear_scatter
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import summarise
@@ -33,6 +31,7 @@ def test_every_property_has_a_source_and_could_be_one(name: str) -> None:
         "thermal_expansion": (5e-6, 2e-4),
         "friction_coefficient": (0.01, 1.0),
         "specific_wear_rate": (1e-18, 1e-12),
+        "wear_scatter": (0.0, 100.0),
     }
     for key, known in material.properties.items():
         least, largest = bounds.get(key, (1e8, 3e11))
@@ -196,14 +195,47 @@ def test_another_bushing_of_a_pair_wears_as_that_of_the_paper_and_says_so() -> N
 
 
 @pytest.mark.parametrize(
-    ("given", "material", "rate", "factor"),
+    ("given", "material", "rate", "ends"),
     [
-        (None, None, 1.1e-15, 80.0),
-        (2e-15, None, 2e-15, math.nan),
-        (None, "ptfe-liner", MATERIALS["ptfe-liner"].properties["specific_wear_rate"].at(), 80.0),
-        (2e-15, "ptfe-liner", 2e-15, math.nan),
-        (None, "polyimide-cheng", 1.1e-15, math.nan),
+        (None, None, 1.1e-15, (0.0976, 8.880)),
+        (2e-15, None, 2e-15, (0.0976, 1.73)),
+        (None, "ptfe-liner", MATERIALS["ptfe-liner"].properties["specific_wear_rate"].at(), (0.0976, 8.880)),
+        (2e-15, "ptfe-liner", 2e-15, (0.0976, 1.73)),
+        (None, "polyimide-cheng", 1.1e-15, (0.0976, 1.73)),
+        (None, "bronze-c93200", 1.1e-15, (0.0976, 1.73)),
     ],
 )
-def test_a_life_is_stated_with_the_range_of_wear_rates(given, material, rate, factor):
-    assert life_factor(given, material, rate) == pytest.approx(factor, nan_ok=True)
+def test_wear_has_the_scatter_of_equal_parts_and_the_range_of_published_rates(given, material, rate, ends):
+    assert wear_scatter(given, material, rate) == pytest.approx(ends, rel=1e-3)
+
+
+def test_keys_go_before_the_scatter_of_the_material_and_those_of_a_pair_before_both() -> None:
+    case = td.load_case("slider-crank")
+    assert case.wear_scatter()["wrist"] == pytest.approx((0.0976, 8.880), rel=1e-3)
+    assert case.replace({"wear.scatter": "[0.5, 2]"}).wear_scatter()["wrist"] == (0.5, 2.0)
+    pair = with_pair({"wear.scatter": "[0.5, 2]"})
+    assert pair.wear_scatter() == {"": (0.5, 2.0), "wrist": (0.5, 2.0)}
+    repeated = with_pair({"wear.repeats": "[1, 1, 1]"})
+    assert repeated.wear_scatter()["wrist"] == (1 / 1.5, 1.5)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("scatter", "[2, 3]"),
+        ("scatter", "[0, 3]"),
+        ("scatter", "[1]"),
+        ("repeats", "[1]"),
+        ("repeats", "[0, 1]"),
+    ],
+)
+def test_a_scatter_that_is_none_is_refused(key: str, value: str) -> None:
+    with pytest.raises(InputError, match=rf"wear\.{key}"):
+        td.load_case("vsv").replace({f"wear.{key}": value})
+    with pytest.raises(InputError, match=rf"pairs\.pin\.wear\.{key}"):
+        with_pair({f"wear.{key}": value})
+
+
+def test_either_scatter_or_repeats() -> None:
+    with pytest.raises(InputError, match="either"):
+        td.load_case("vsv").replace({"wear.scatter": "[0.5, 2]", "wear.repeats": "[1, 2]"})

@@ -131,8 +131,8 @@ def test_joints_with_clearance_are_those_listed() -> None:
 def test_there_are_as_many_validation_sets_as_it_says() -> None:
     from tribodyn.validation import NAMES
 
-    assert len(NAMES) == 12
-    assert "Twelve measured sets" in TEXT
+    assert len(NAMES) == 17
+    assert "Seventeen measured sets" in TEXT
 
 
 def test_the_mechanism_is_a_dozen_lines_and_runs() -> None:

@@ -18,7 +18,7 @@ def test_every_named_test_exists() -> None:
 
 
 def test_every_set_stands_in_the_table_by_quantity() -> None:
-    assert set(re.findall(r"\(sets/([a-z_]+)\.md\)", PAGE)) == set(NAMES)
+    assert set(re.findall(r"\(sets/([a-z_0-9]+)\.md\)", PAGE)) == set(NAMES)
 
 
 def test_rows_of_the_register_have_one_width() -> None:

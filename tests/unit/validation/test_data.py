@@ -21,7 +21,8 @@ def _manifest() -> dict[str, str]:
 
 
 def _place(path: str) -> Path:
-    return FOLDER / path if "/" not in path else FOLDER / "sets" / path
+    name, _, file = path.rpartition("/")
+    return Path(str(load(name).data / file)) if name else FOLDER / file
 
 
 def _plain(text: str) -> str:
@@ -41,7 +42,7 @@ def test_every_file_is_that_of_the_collection(path: str) -> None:
 
 
 def test_the_list_is_the_index() -> None:
-    rows = re.findall(r"^\| ([a-z_]+) \|", index(), re.MULTILINE)
+    rows = re.findall(r"^\| ([a-z_0-9]+) \|", index(), re.MULTILINE)
     assert set(NAMES) == {name for name in rows if name != "set"}
 
 
@@ -62,7 +63,7 @@ def test_bands_are_those_of_the_index(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_inputs_stand_in_the_quoted_line(name: str) -> None:
     one = load(name)
-    tables = [path.read_text(encoding="utf-8") for path in (FOLDER / "sets" / name).glob("*.csv")]
+    tables = [path.read_text(encoding="utf-8") for path in Path(str(one.data)).glob("*.csv")]
     texts = [_plain(text) for text in (one.readme(), index(), *tables)]
     for given in one.inputs.values():
         assert given.source or given.assumed, f"{given.name} has no source"

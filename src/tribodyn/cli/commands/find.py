@@ -87,6 +87,7 @@ def _printer(console: Console) -> Callable[[Arrival], None]:
 def _tell(search: Search, root: float, console: Console) -> None:
     """Print the tried values and the answer."""
     from tribodyn.cases.keys import VALUE
+    from tribodyn.results.summary import wear_interval
 
     asked, limit = search.question, search.limit
     unit = asked.key_result.unit
@@ -99,6 +100,10 @@ def _tell(search: Search, root: float, console: Console) -> None:
         f"\n{label}: {limit.sign} {limit.value:.6g} {unit}".rstrip()
         + f" at {path} = {_shown(asked, root)}, where it is {reached}"
     )
+    ends = wear_interval(limit.name, asked.key_result.part, asked.case.wear_scatter())
+    if ends is not None:
+        low_end, high_end = (f"{end * search.tried[root]:.2g}" for end in ends)
+        console.say(f"(at the nominal wear rate; of equal parts {low_end} to {high_end} {unit})")
     console.say(
         f"(the limit lies between {low} and {high}; {len(search.tried)} runs, kept in "
         f"{os.fspath(search.directory)}{os.sep})"
@@ -112,6 +117,7 @@ def _tell(search: Search, root: float, console: Console) -> None:
                 "number": limit.name,
                 "limit": limit.value,
                 "reached": search.tried[root],
+                "interval": None if ends is None else [end * search.tried[root] for end in ends],
                 "tried": {_shown(asked, value): number for value, number in sorted(search.tried.items())},
             }
         )

@@ -57,6 +57,9 @@ def execute(args: Namespace) -> int:
     judged = []
     with _reserved(directory):
         for one in sets:
+            if one.missing:
+                console.say(f"{one.missing}\n")
+                continue
             console.note(f"computing {one.name}")
             judged.append(Judged(one, one.run()))
             console.say(as_text(judged[-1]) + "\n")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from tribodyn.cases.case import Group, NamedGroup
+from tribodyn.cases.case import NamedGroup
 from tribodyn.cases.fields import number, quantity
-from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
+from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, WearRates
 from tribodyn.cases.keys import ASSUMED
 
 if TYPE_CHECKING:
@@ -34,22 +34,8 @@ def friction_of(which: str) -> Any:
     )
 
 
-class PairWear(Group):
+class PairWear(WearRates):
     """Wear of the surfaces of a pair; that of the case without a material of their own."""
-
-    specific_wear_rate: float = quantity(
-        "1.1e-15 m^2/N", "specific wear rate C_w of the bushing", "paper, section 2.4", ge=0
-    )
-    partner_wear_rate: float = quantity(
-        "0 m^2/N", "specific wear rate of what slides in it; both wear in proportion", ASSUMED, ge=0
-    )
-    final_roughness: float | None = quantity(
-        None,
-        "rms roughness that the bushing runs in to; that of the trunnion without it",
-        ASSUMED,
-        gt=0,
-        example="0.4 um",
-    )
 
 
 class PairKeys(NamedGroup):

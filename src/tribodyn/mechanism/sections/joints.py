@@ -17,7 +17,7 @@ from tribodyn.views.numbers import fitting
 from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
 from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
-from tribodyn.views.wear import fitting_unit
+from tribodyn.views.wear import WORN, fitting_unit
 
 MOST: Final = 8
 """Joints that are shown one by one; of more, those that are loaded most."""
@@ -27,10 +27,6 @@ _LINE: Final = 1.0e-3
 LAID_FLAT: Final = (
     "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
     "or arc of a ball."
-)
-WORN: Final = (
-    "Depth worn off: after the cycles of the wear campaign, or else a linear estimate for this run, in which "
-    "the worn shape does not change the pressure."
 )
 
 

@@ -80,7 +80,8 @@ function numberRow(one) {
     drawTracks();
   };
   const about = { "aria-pressed": String(chosen.curve === name), "data-number": name, title: meaning };
-  const words = resultText(value, digits);
+  const ends = pageState.shown.intervals?.[name];
+  const words = ends ? `${number(ends[0], 2)} to ${number(ends[1], 2)}` : resultText(value, digits);
   const range = rangeText(one);
   const assumed = pageState.shown.assumed?.includes(name) ? " assumed" : "";
   const main = element("td", { class: `value${assumed}` }, robust ? words : range || words, element("span", { class: "unit" }, ` ${unit}`));

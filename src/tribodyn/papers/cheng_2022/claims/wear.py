@@ -18,6 +18,7 @@ from tribodyn.papers.cheng_2022.claims.base import (
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, above, below, near
 from tribodyn.papers.cheng_2022.runs import CLEARANCES
 from tribodyn.papers.cheng_2022.wear import CYCLES, worn
+from tribodyn.results.dataset import WEAR_SCATTER, json_attribute
 
 _WIDE: Final = CLEARANCES[-1]
 _LAST: Final = CYCLES[-1]
@@ -32,10 +33,17 @@ def _depth(trial: Trial, clearance: float, cycles: int = _LAST) -> FloatArray:
     return np.asarray(run["wear_depth"].values / _NANOMETRE)
 
 
+def _of_equal_parts(trial: Trial) -> str:
+    """Return the interval of the depths of equal parts, in words."""
+    run = worn(trial.runs, trial.formulation, NARROW, _LAST)
+    low, high = (json_attribute(run, name, {}).get("", 1.0) for name in WEAR_SCATTER)
+    return f" (equal parts: {low:.2g} to {high:.2g} times)"
+
+
 def depth_at_40(trial: Trial) -> Finding:
     """Measure the largest depth at 40 µm after 400 cycles."""
     deepest = float(_depth(trial, _WIDE).max())
-    return Finding(f"{deepest:.3g} nm", deepest)
+    return Finding(f"{deepest:.3g} nm" + _of_equal_parts(trial), deepest)
 
 
 def ratio_to_20(trial: Trial) -> Finding:
@@ -58,13 +66,13 @@ def profile(trial: Trial, clearance: float) -> Callable[[float], float]:
 def grows_with_cycles(trial: Trial) -> Finding:
     """Measure the growth of the depth over 100 to 400 cycles at 20 µm."""
     depths = np.array([_depth(trial, NARROW, cycles).max() for cycles in CYCLES])
-    return Finding(listed(depths, "nm"), least_growth(depths))
+    return Finding(listed(depths, "nm") + _of_equal_parts(trial), least_growth(depths))
 
 
 def grows_with_clearance(trial: Trial) -> Finding:
     """Measure the growth of the depth after 400 cycles with the clearance."""
     depths = np.array([_depth(trial, clearance).max() for clearance in trial.runs.clearances])
-    return Finding(listed(depths, "nm"), least_growth(depths))
+    return Finding(listed(depths, "nm") + _of_equal_parts(trial), least_growth(depths))
 
 
 def at_the_edges(trial: Trial) -> Finding:

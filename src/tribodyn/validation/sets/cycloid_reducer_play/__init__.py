@@ -1,0 +1,1 @@
+"""Validation set ``cycloid_reducer_play``."""

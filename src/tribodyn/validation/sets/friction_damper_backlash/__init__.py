@@ -1,0 +1,1 @@
+"""Validation set ``friction_damper_backlash``."""

@@ -1,0 +1,1 @@
+"""Validation set ``hip_simulator_wear``."""

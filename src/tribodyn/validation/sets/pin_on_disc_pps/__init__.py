@@ -1,0 +1,1 @@
+"""Validation set ``pin_on_disc_pps``."""

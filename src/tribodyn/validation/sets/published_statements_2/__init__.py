@@ -1,0 +1,1 @@
+"""Validation set ``published_statements_2``."""
