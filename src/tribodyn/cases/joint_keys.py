@@ -1,11 +1,12 @@
-"""Tables of keys of a clearance joint: a shaft in a bushing, its sleeve, its form, its oil film."""
+"""Tables of keys of a clearance joint: a shaft in a bushing, its sleeve, its form, its oil film, its wear."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Literal
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.fields import choice, count, number, quantity, switch
+from tribodyn.cases.fields import Numbers, choice, count, number, quantity, series, switch
 from tribodyn.cases.groups import TABLE_1, Bushing
 from tribodyn.cases.keys import ASSUMED
 from tribodyn.cases.signals import BoreMap, ProfileTable
@@ -216,3 +217,77 @@ class OptionalFilmKeys(FilmKeys):
     """The oil film of a case that is dry unless its keys say otherwise."""
 
     lubricated: bool = switch(False, "whether there is oil in the clearance", SECTION_4)
+
+
+class SurfaceWear(Group):
+    """Wear rates of a pair of surfaces, and the scatter of equal parts."""
+
+    KEYS_BEGIN_HERE: ClassVar[bool] = True
+
+    specific_wear_rate: float = quantity(
+        "1.1e-15 m^2/N", "specific wear rate C_w of the bushing", "paper, section 2.4", ge=0
+    )
+    partner_wear_rate: float = quantity(
+        "0 m^2/N", "specific wear rate of what slides in it; both wear in proportion", ASSUMED, ge=0
+    )
+    scatter: Numbers | None = series(
+        "least and largest wear of equal parts over that at the rate; by default those of the material",
+        "",
+        example="[0.5, 2]",
+    )
+    repeats: Numbers | None = series(
+        "measured wear of equal parts in equal tests, in any one unit; the scatter follows from it",
+        "",
+        example="[1.2, 0.9, 2.1]",
+    )
+    final_roughness: float | None = quantity(
+        None,
+        "rms roughness that the bushing runs in to; that of the trunnion without it",
+        ASSUMED,
+        gt=0,
+        example="0.4 um",
+    )
+
+    def model_post_init(self, context: object, /) -> None:
+        """Check that scatter is an interval around 1, and repeats at least two measurements."""
+        low, high = self.scatter if self.scatter and len(self.scatter) == 2 else (1.0, 1.0)
+        around = self.scatter is None or (len(self.scatter) == 2 and 0.0 < low <= 1.0 <= high)
+        demand(around, "scatter", "give two numbers around 1, such as [0.5, 2]")
+        several = self.repeats is None or (len(self.repeats) > 1 and min(self.repeats) > 0.0)
+        demand(several, "repeats", "give two or more numbers above 0, such as [1.2, 0.9, 2.1]")
+        one = self.scatter is None or self.repeats is None
+        demand(one, "repeats", "give either this or scatter")
+
+
+class Wear(SurfaceWear):
+    """Wear of the bushing."""
+
+    LIMIT_OF: ClassVar[Mapping[str, str]] = {"wear_depth_max": "wear.depth_limit"}
+    """Keys that end a campaign, by what its history calls the number that is limited."""
+
+    paper_hardness_divisor: float = number(
+        0.0, "the paper's figures come out when the rate is divided by 65; 0 is off", "paper, Eq. 47", ge=0
+    )
+    cycles: int = count(
+        0, "drive cycles of a wear campaign; 0: none, a linear estimate of wear", ASSUMED, ge=0, le=10**12
+    )
+    feedback: bool = switch(True, "whether the worn shape changes the gap in a campaign", "manual, wear")
+    jump_limit: float = number(
+        0.05,
+        "change of the sliding load, relative to its peak, that one jump of a campaign may cause",
+        ASSUMED,
+        gt=0,
+        le=1,
+    )
+    jump_depth: float = number(
+        0.25, "largest gain of depth in one jump, over the combined roughness", ASSUMED, gt=0, le=1
+    )
+    depth_limit: float | None = quantity(
+        None,
+        "wear depth, of both partners together, at which a joint is worn out: a campaign ends there",
+        ASSUMED,
+        gt=0,
+        example="5 um",
+    )
+
+    running_in: bool = switch(False, "whether the bushing's roughness changes in a campaign", "manual, wear")

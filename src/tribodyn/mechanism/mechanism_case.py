@@ -14,8 +14,8 @@ from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import Case, demand, demand_known
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
-from tribodyn.cases.groups import Contact, Wear, check_output_interval
-from tribodyn.cases.joint_keys import FilmGridKeys
+from tribodyn.cases.groups import Contact, check_output_interval
+from tribodyn.cases.joint_keys import FilmGridKeys, Wear
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.loads import Doors, OwnFunction
 from tribodyn.cases.messages import Remarks

@@ -6,7 +6,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from tribodyn.cases.groups import Wear
+from tribodyn.cases.joint_keys import Wear
 from tribodyn.cases.messages import Remarks
 from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.elements.stop import Stop

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.groups import Wear
+from tribodyn.cases.joint_keys import Wear
 from tribodyn.cases.load import BuiltIn
 from tribodyn.cases.messages import Remarks
 from tribodyn.core.arrays import FloatArray

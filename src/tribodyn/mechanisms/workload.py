@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from tribodyn.cases.groups import Wear
+from tribodyn.cases.joint_keys import Wear
 
 
 @dataclass(frozen=True)

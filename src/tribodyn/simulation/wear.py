@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, cast
 
 import numpy as np
 
-from tribodyn.cases import groups
+from tribodyn.cases.joint_keys import Wear
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearingCase, WearingSystem
 from tribodyn.mechanisms.wear_state import Carried, Worn
@@ -79,7 +79,7 @@ def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
     return cycles.session.dataset(replace(cycles.last, cost=campaign.statistics), more)
 
 
-def _archard(system: WearingSystem, wear: groups.Wear) -> Archard:
+def _archard(system: WearingSystem, wear: Wear) -> Archard:
     """Return the wear law of a case."""
     bushing, partner = system.wear_rates
     return Archard(bushing + partner, wear.paper_hardness_divisor)
@@ -145,7 +145,7 @@ def _scatter(case: WearingCase) -> tuple[float, float]:
 
 
 def _linear_life(
-    wear: groups.Wear, cycles: float, depth: FloatArray, of_outputs: Mapping[str, FloatArray]
+    wear: Wear, cycles: float, depth: FloatArray, of_outputs: Mapping[str, FloatArray]
 ) -> dict[str, object]:
     """Return after how many cycles the first limit is reached if the wear of this run goes on."""
     limit, deepest = wear.depth_limit, float(depth.max(initial=0.0))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from tribodyn.cases.case import NamedGroup
 from tribodyn.cases.fields import number, quantity
-from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces, WearRates
+from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
 from tribodyn.cases.keys import ASSUMED
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Final, Literal, Self
 
 from tribodyn.cases.case import demand, dot, unit
 from tribodyn.cases.fields import Vector, choice, count, name, names, switch, vector
-from tribodyn.cases.joint_keys import SURFACE, FilmKeys, FormKeys, LinerKeys
+from tribodyn.cases.joint_keys import SURFACE, FilmKeys, FormKeys, LinerKeys, SurfaceWear
 from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import JointType
@@ -34,7 +34,7 @@ def friction_of(which: str) -> Any:
     )
 
 
-class PairWear(WearRates):
+class PairWear(SurfaceWear):
     """Wear of the surfaces of a pair; that of the case without a material of their own."""
 
 

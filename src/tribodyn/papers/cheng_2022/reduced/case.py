@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, tables, text
-from tribodyn.cases.groups import Solver, Wear, check_output_interval
-from tribodyn.cases.joint_keys import PlainJoint
+from tribodyn.cases.groups import Solver, check_output_interval
+from tribodyn.cases.joint_keys import PlainJoint, Wear
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import Doors
 from tribodyn.cases.rough import BushingCase

@@ -33,7 +33,7 @@ _STIFF_ROWS: Final = 4
 
 
 @dataclass(frozen=True)
-class Record:
+class ReducerLoop:
     """Torque [N m] and deflection [deg] in the order of the record, shapes (n,)."""
 
     torque: FloatArray
@@ -47,14 +47,14 @@ class Record:
         return np.asarray(of[at] + share * (of[at + 1] - of[at]))
 
 
-def record(one: ValidationSet, test: str, every: int = 1) -> Record:
+def record(one: ValidationSet, test: str, every: int = 1) -> ReducerLoop:
     """Return a loop of the baseline after running in."""
     rows = one.rows(f"baseline_{test}_after_run_in.csv")[::every]
     names = ("motor_torque_at_output_Nm", "deflection_deg")
-    return Record(*(np.array([float(row[name]) for row in rows]) for name in names))
+    return ReducerLoop(*(np.array([float(row[name]) for row in rows]) for name in names))
 
 
-def computed(given: Mapping[str, float], loop: Record) -> FloatArray:
+def computed(given: Mapping[str, float], loop: ReducerLoop) -> FloatArray:
     """Return the deflection in the second of two passes of a record [deg], shape (n,)."""
     torque, n = np.tile(loop.torque, 2), loop.torque.size
     times = np.append(0.0, np.cumsum(np.abs(np.diff(torque)) + _PAUSE)) / _RATE
@@ -75,7 +75,7 @@ def computed(given: Mapping[str, float], loop: Record) -> FloatArray:
     return np.asarray(np.interp(times[n:], run["time"].values, angle) + given["zero"])
 
 
-def fitted(loop: Record, free: tuple[FitParameter, ...], held: Mapping[str, float]) -> LeastSquares:
+def fitted(loop: ReducerLoop, free: tuple[FitParameter, ...], held: Mapping[str, float]) -> LeastSquares:
     """Return the fit of some parameters to a loop, the others being held; residuals in degrees."""
     return fit(
         lambda given: computed({**held, **given}, loop) - loop.deflection,
@@ -124,7 +124,7 @@ def compare(one: ValidationSet) -> Outcome:
     return Outcome(tuple(rows), _plot(play, {**found.named, "stiffness": stiffness}))
 
 
-def _plot(loop: Record, given: Mapping[str, float]) -> Plot:
+def _plot(loop: ReducerLoop, given: Mapping[str, float]) -> Plot:
     torque, values = loop.torque.tolist(), computed(given, loop).tolist()
     measured = Curve("measured", "measured", torque, loop.deflection.tolist())
     return Plot("torque [N m]", "deflection [deg]", (measured, Curve("fitted", "computed", torque, values)))

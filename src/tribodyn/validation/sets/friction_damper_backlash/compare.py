@@ -39,7 +39,7 @@ _OUTWARD: Final = (0.2, 0.85)
 
 
 @dataclass(frozen=True)
-class Record:
+class DamperRecord:
     """A measured force over displacement; of a loop one cycle, its first row again at the end.
 
     Attributes
@@ -90,27 +90,27 @@ class Record:
         return float((sign * self.force).max()) / self.plateaus["plus" if sign > 0.0 else "minus"]
 
 
-def loop(one: ValidationSet, file: str) -> Record:
+def loop(one: ValidationSet, file: str) -> DamperRecord:
     """Return a loop of the set."""
     rows = one.rows(file)
     names = ("phase_of_cycle", "displacement_mm", "force_kN")
     phase, displacement, force = (np.array([float(row[name]) for row in rows]) for name in names)
     period = 4.0 if "0p25Hz" in file else 2.0
     closed = (np.append(values, values[0]) for values in (displacement, force))
-    return Record(period * np.append(phase, 1.0), *closed)
+    return DamperRecord(period * np.append(phase, 1.0), *closed)
 
 
-def earthquake(one: ValidationSet) -> Record:
+def earthquake(one: ValidationSet) -> DamperRecord:
     """Return the record of the earthquake."""
     rows = one.rows(EARTHQUAKE)
     names = ("time_s", "displacement_mm", "force_kN")
     time, displacement, force = (np.array([float(row[name]) for row in rows]) for name in names)
-    return Record(time - time[0], displacement, force)
+    return DamperRecord(time - time[0], displacement, force)
 
 
 def computed(
-    given: Mapping[str, float], record: Record, *, start: float = 0.0, cyclic: bool = True
-) -> Record:
+    given: Mapping[str, float], record: DamperRecord, *, start: float = 0.0, cyclic: bool = True
+) -> DamperRecord:
     """Return the force on the rod over the displacement of a record; of a loop that of the second cycle.
 
     Parameters
@@ -141,7 +141,7 @@ def computed(
     with as_file(ValidationSet("friction_damper_backlash").folder / "damper.toml") as model:
         run = simulate(load_case(str(model)).replace(changes))
     force = np.interp(times[-n:], run["time"].values, run["drive_force"].values[:, 0] * 1e-3)
-    return Record(record.time, record.displacement, force)
+    return DamperRecord(record.time, record.displacement, force)
 
 
 @cache
@@ -165,7 +165,7 @@ def compare(one: ValidationSet) -> Outcome:
     return Outcome(tuple(rows), _plot(one))
 
 
-def _rectangle(record: Record) -> float:
+def _rectangle(record: DamperRecord) -> float:
     """Return the energy of a loop without play and without take-up [J]."""
     return 2.0 * record.amplitude * sum(record.plateaus.values())
 

@@ -138,7 +138,7 @@ def _depths(one: ValidationSet) -> list[Comparison]:
     """Return the depths of a million cycles at three clearances, by the volume of the set ``clarke``."""
     row = next(row for row in one.rows("wear.csv") if row["set"] == "clarke")
     volume = float(row["wear_rate"]) * 1e-9
-    changes = {"least clearance": {}, "middle clearance": {}, "largest clearance": {}} | ends(one)
+    changes: dict[str, dict[str, str]] = {"middle clearance": {}, **ends(one)}
     rows = []
     for name in ("least clearance", "middle clearance", "largest clearance"):
         run = cycle(CLARKE, changes=changes[name])
