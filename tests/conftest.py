@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.shapes import SHAPES, Cylinder
 from tribodyn.kernels.vsv.quantities import OBSERVED
+from tribodyn.mechanism.shapes.guide import DovetailGuide, SquareGuide
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, CrankMotion, Inertias, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
@@ -145,14 +147,23 @@ SIZES = {
     "sphere": {"radius": 8e-3, "clearance": 20e-6, "band": 0.8},
     "ball": {"radius": 8e-3, "clearance": 20e-6, "band": 0.1},
     "mesh": {"clearance": 20e-6, "edge": 4e-3},
-    "guide": {"clearance": 20e-6, "edge": 4e-3, "slides": 1.0},
+    "guide": {"clearance": 20e-6, "length": 20e-3, "through": True},
+    "block": {"clearance": 20e-6, "length": 20e-3},
+    "dovetail": {"clearance": 20e-6, "length": 20e-3},
+    "slot": {"radius": 6e-3, "clearance": 20e-6, "length": 20e-3},
 }
 """Sizes of a clearance joint of each shape [m].
 
-``wide`` and ``piston`` have ten times the radius of their length, ``flanged`` has end faces, ``guide`` is
-square.
+``wide`` and ``piston`` have ten times the radius of their length, ``flanged`` has end faces, ``guide`` is a
+rail through a carriage.
 """
-VARIANTS = {"wide": "cylinder", "piston": "cylinder", "flanged": "cylinder", "guide": "mesh"}
+VARIANTS = {
+    "wide": "cylinder",
+    "piston": "cylinder",
+    "flanged": "cylinder",
+    "block": "guide",
+    "dovetail": "guide",
+}
 
 
 def square_tube(half: float) -> FloatArray:
@@ -163,7 +174,14 @@ def square_tube(half: float) -> FloatArray:
     return np.concatenate([wall @ turn.T for turn in turns])
 
 
-FACETS = {shape: {"facets": square_tube(8e-3)} for shape in ("mesh", "guide")}
+SQUARE = SimpleNamespace(width=16e-3, height=12e-3)
+DOVETAIL = SimpleNamespace(width=16e-3, height=6e-3, flank_angle=math.radians(55.0))
+FACETS: dict[str, dict[str, object]] = {
+    "mesh": {"facets": square_tube(8e-3)},
+    "guide": {"walls": SquareGuide().walls(SQUARE)},
+    "block": {"walls": SquareGuide().walls(SQUARE)},
+    "dovetail": {"walls": DovetailGuide().walls(DOVETAIL)},
+}
 
 
 @pytest.fixture(scope="session")

@@ -111,7 +111,7 @@ LONG = 3e-3
 TOLERANCE = 1e-10
 
 
-@pytest.mark.parametrize("shape", ["cylinder", "flanged", "sphere", "mesh"])
+@pytest.mark.parametrize("shape", ["cylinder", "flanged", "sphere", "mesh", "guide"])
 def test_momentum_and_energy(shape: str, make_clearance: Callable[..., Clearance]) -> None:
     # Several impacts, sliding and rattling. Axes of the bodies are those of the drawing as they start.
     data = assemble([make_clearance(shape, grid=(32, 6))])
@@ -141,7 +141,9 @@ def test_momentum_and_energy(shape: str, make_clearance: Callable[..., Clearance
     assert after[2] == pytest.approx(before[2], rel=1e-8)
 
 
-@pytest.mark.parametrize("shape", ["cylinder", "flanged", "annulus", "sphere", "mesh"])
+@pytest.mark.parametrize(
+    "shape", ["cylinder", "flanged", "annulus", "sphere", "mesh", "guide", "dovetail", "slot"]
+)
 def test_action_is_reaction(shape: str, make_clearance: Callable[..., Clearance]) -> None:
     # About any point both wrenches add up to nothing, whatever the pose: here about the global origin.
     data = assemble([make_clearance(shape, grid=(32, 6))])

@@ -25,7 +25,8 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 
 MakeClearance = Callable[..., Clearance]
 POINT = "point-lankarani-nikravesh"
-SHAPES = ("cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "mesh", "guide")
+GUIDES = ("guide", "block", "dovetail")
+SHAPES = ("cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "mesh", *GUIDES, "slot")
 POINTS = ("cylinder at points", "sphere at a point")
 ELASTIC = tuple(f"elastic {shape}" for shape in SHAPES)
 KINDS = (*SHAPES, *POINTS, *ELASTIC)
@@ -79,7 +80,10 @@ def draw(kind: str, seed: int) -> tuple[FloatArray, FloatArray, FloatArray, Floa
         d[2] = -16e-6 if kind == "annulus" else -12e-6
     # A ball has no tilt, a square journal is held in its tube.
     lean = random.uniform(-1.0, 1.0, 2) * (0.5 if kind in BALLS else 1e-3)
-    rotation = tilted(*lean, spin=1e-3 if kind in ("mesh", "guide") else 1.0)
+    rotation = tilted(*lean, spin=1e-3 if kind in ("mesh", *GUIDES) else 1.0)
+    if kind == "slot":  # whose pin turns about x, and leans along the slot
+        rotation = Rotation.from_euler("ZYX", [3e-4 * np.sign(lean[0]), 0.3, 2.0]).as_matrix()
+        d = np.array([1e-3, 19e-6 * np.sign(d[1]), 5e-3 * random.normal()])
     if "cylinder" in kind or kind in ("wide", "guide"):  # which may have slid along their axis
         d += 5e-3 * random.normal() * rotation[:, 2] / rotation[2, 2]
     if kind == "ball":
@@ -193,7 +197,9 @@ def test_a_journal_of_revolution_spins_freely_without_friction(
         assert out[3:] @ axis == pytest.approx(0.0, abs=1e-14 * np.abs(out).max())
 
 
-@pytest.mark.parametrize("kind", ["cylinder", "wide", "piston", "ball", "guide", "cylinder at points"])
+@pytest.mark.parametrize(
+    "kind", ["cylinder", "wide", "piston", "ball", *GUIDES, "slot", "cylinder at points"]
+)
 def test_what_slides_is_free_to(
     kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
 ) -> None:
@@ -207,7 +213,7 @@ def test_what_slides_is_free_to(
     memory, out, far = remembering(data), np.empty(6), np.empty(6)
     for seed in range(6):
         d, rotation, v, w = draw(kind, seed)
-        with_the_pin = kind in ("ball", "piston")
+        with_the_pin = kind in ("ball", "piston", "block", "dovetail", "slot")
         along = np.array([0.0, 0.0, 1.0]) if with_the_pin else rotation[:, 2] / rotation[2, 2]
         slid = d + 30e-3 * along
         wrench(data, memory, 0, pose_at(d, rotation, v, w), out)

@@ -15,7 +15,9 @@ MakeClearance = Callable[..., Clearance]
 V_MIN = 1e-3
 
 
-@pytest.mark.parametrize("shape", ["cylinder", "flanged", "annulus", "sphere", "mesh"])
+@pytest.mark.parametrize(
+    "shape", ["cylinder", "flanged", "annulus", "sphere", "mesh", "block", "dovetail", "slot"]
+)
 def test_entry_velocities_of_all_nodes(shape: str, make_clearance: MakeClearance) -> None:
     # A shaft that wanders in and out of contact, against the rules told node by node, with no windows.
     where = places([make_clearance(shape)])

@@ -1,12 +1,13 @@
 """Paths of points of shafts in their clearance circles, a panel each."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, Polygon
 
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
@@ -39,8 +40,10 @@ def _draw_track(axes: Axes, orbit: Orbit, track: OrbitPath) -> None:
     reach = 1.1 * orbit.reach
     axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
     axes.plot(0.0, 0.0, "+", color=style.GREY, ms=7, mew=0.8)
-    axes.add_patch(Circle((0.0, 0.0), orbit.clearance, fill=False, edgecolor=style.GREY, linewidth=1.0))
-    for theta in (0, 90, 180, 270):
+    look: dict[str, Any] = {"fill": False, "edgecolor": style.GREY, "linewidth": 1.0}
+    wall = Polygon(orbit.corners, **look) if orbit.corners else Circle((0.0, 0.0), orbit.clearance, **look)
+    axes.add_patch(wall)
+    for theta in () if orbit.corners else (0, 90, 180, 270):
         x, y = (1.12 * orbit.clearance * way(np.deg2rad(theta)) for way in (np.cos, np.sin))
         axes.text(x, y, f"{theta}°", size=style.SMALL - 1.5, color=style.GREY, ha="center", va="center")
     axes.plot(*track.path.T, color=style.BLUE, linewidth=0.8)

@@ -10,6 +10,7 @@ from tribodyn.cases.load import BuiltIn, flat
 from tribodyn.core import files
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
+from tribodyn.mechanism.results.guides import BY_GUIDE
 from tribodyn.mechanism.results.joint_numbers import BY_JOINT
 from tribodyn.mechanism.results.mechanism_results import BY_MODE, KEY_NUMBERS, KEY_RESULTS
 from tribodyn.mechanism.results.springs import BY_SPRING
@@ -90,7 +91,7 @@ MECHANISM: Final = MechanismDescriptor(
     key_numbers=KEY_NUMBERS,
     of_cycle=OF_CYCLE,
     by_part={
-        "joints": BY_JOINT,
+        "joints": {**BY_JOINT, **BY_GUIDE},
         "springs": BY_SPRING,
         "outputs": BY_OUTPUT,
         "instants": BY_INSTANT,
@@ -113,7 +114,7 @@ MECHANISM: Final = MechanismDescriptor(
     ),
     parts={
         "joints.*": ("type", "between", "point", "axis", "second_axis"),
-        "joints.*.clearance": ("radius", "radial", "length", "axial"),
+        "joints.*.clearance": ("radius", "radial", "length", "axial", "width", "height"),
         "bodies.*": (
             "shape",
             "density",

@@ -211,6 +211,11 @@ VARIABLES: Final[dict[str, Variable]] = {
     "film_pressure_cycle": Variable(
         "Pa", "pressure of an oil film over one cycle", (*FRAME, "film", "film_angle", "film_row")
     ),
+    "guide_contact": Variable(
+        "1",
+        "contact between flat walls: 0 nowhere, 1 at one corner, 2 on one face, 3 on opposite faces",
+        (*TIME, "joint"),
+    ),
     "radial_clearance": Variable("m", "radial clearance at the temperatures of the time", (*TIME, "joint")),
     "wear_depth": Variable("m", "wear depth, after the campaign or, estimated, after this run", _MAP),
     "partner_wear_depth": Variable("m", "part of wear_depth worn off the partner of the bushing", _MAP),

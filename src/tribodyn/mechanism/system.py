@@ -45,6 +45,7 @@ from tribodyn.mechanism.results.followed import (
     transmitted,
     with_motors,
 )
+from tribodyn.mechanism.results.guides import guide_columns
 from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
@@ -296,15 +297,10 @@ class MechanismSystem:
         peaks = self._peaks(run)
         worn = self._worn(temperature_effects.depth_of(run.problem.data.contact, self.maps.places))
         contacts = self._contacts(worn)
-        of_contacts = (
-            contacts.numbers_of(
-                run.problem.data.contact,
-                found.couplings,
-                peaks,
-                temperature_effects.openings(worn, run.solution.t),
-            )
-            if peaks
-            else {}
+        touching, openings = run.problem.data.contact, temperature_effects.openings(worn, run.solution.t)
+        of_contacts = contacts.numbers_of(touching, found.couplings, peaks, openings) if peaks else {}
+        of_guides = (
+            guide_columns(worn, touching, self.maps.places, found.couplings, openings) if peaks else {}
         )
         return ResultPart(
             coordinates=self._coordinates(run, vibrations),
@@ -314,6 +310,7 @@ class MechanismSystem:
                 **stresses(self.model, found.couplings),
                 **power_columns(self.model, found.couplings),
                 **temperature_effects.radial_clearances(self.model, run.solution.t),
+                **of_guides,
                 **(spring_columns(self.case, observed_motion(found)) if self.case.springs else {}),
                 **of_outputs,
                 **vibrations.columns,

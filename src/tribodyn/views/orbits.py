@@ -55,16 +55,20 @@ class Orbit:
         Radius of the circle [µm].
     tracks
         Of its points.
+    corners
+        Of the area that flat walls leave, in the place of the circle [µm], shape (n, 2).
     """
 
     name: str
     clearance: float
     tracks: tuple[OrbitPath, ...]
+    corners: Sequence[Sequence[float]] = ()
 
     @property
     def reach(self) -> float:
         """Half of the width that is drawn [µm]."""
-        return 1.25 * max(self.clearance, *(peak(track.path) for track in self.tracks), 1e-3)
+        room = [abs(x) for corner in self.corners for x in corner]
+        return 1.25 * max(self.clearance, *room, *(peak(track.path) for track in self.tracks), 1e-3)
 
     @property
     def payload(self) -> dict[str, Any]:
@@ -72,6 +76,7 @@ class Orbit:
         fine = _FINE * self.clearance
         return {
             "clearance": self.clearance,
+            "corners": self.corners,
             "reach": self.reach,
             "joined": len(self.tracks) > 1,
             "looks": LOOKS[: len(self.tracks)],

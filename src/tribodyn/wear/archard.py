@@ -79,11 +79,16 @@ def resampled(
     """
     if not depth.any():
         return np.zeros((fine_z.size, n_theta))
-    from scipy.interpolate import PchipInterpolator
-
-    along = PchipInterpolator(z, depth, axis=0)(fine_z)
+    along = between_edges(depth, z, fine_z)
     n = depth.shape[1]
     # Three more angles on either side: the slope at a node is made from its neighbours.
     around = np.arange(-3, n + 4)
     wanted = np.mod(np.arange(n_theta) * (n / n_theta) + turn * n, n)
-    return np.asarray(PchipInterpolator(around, along[:, around % n], axis=1)(wanted))
+    return between_edges(along[:, around % n], around, wanted, axis=1)
+
+
+def between_edges(depth: FloatArray, z: FloatArray, fine_z: FloatArray, axis: int = 0) -> FloatArray:
+    """Return depths at other places along an axis of the array, without new peaks."""
+    from scipy.interpolate import PchipInterpolator
+
+    return np.asarray(PchipInterpolator(z, depth, axis=axis)(fine_z))

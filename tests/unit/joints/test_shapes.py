@@ -6,17 +6,24 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.shapes import SHAPES, Annulus, Ball, Cylinder, Mesh, Sphere
+from tribodyn.joints.shapes import SHAPES, Annulus, Ball, Cylinder, Guide, Mesh, Slot, Sphere, Wall
 from tribodyn.joints.shapes.mesh import PATCH, nearby, split
 
 CUBE_FACE = np.array([[[0.0, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [1, 0, 0]]]) * 1e-2
 """Two triangles of a square centimetre at z = 0 that face −z."""
+TRIANGLE = (
+    Wall("bottom", (-6e-3, -2e-3), (6e-3, -2e-3)),
+    Wall("right", (6e-3, -2e-3), (0.0, 6e-3)),
+    Wall("left", (0.0, 6e-3), (-6e-3, -2e-3)),
+)
 MADE = {
     "cylinder": Cylinder(6e-3, 20e-6, 20e-3),
     "annulus": Annulus(6e-3, 9e-3),
     "sphere": Sphere(8e-3, 20e-6, 0.8),
     "ball": Ball(8e-3, 20e-6, 0.1),
     "mesh": Mesh(CUBE_FACE, 20e-6, 3e-3),
+    "guide": Guide(TRIANGLE, 20e-6, 30e-3),
+    "slot": Slot(6e-3, 20e-6, 20e-3),
 }
 
 

@@ -32,7 +32,7 @@ def test_a_signature_has_the_keys_that_a_joint_of_its_kind_takes() -> None:
     assert not {"start_velocity", "stiffness", "between", "type"} & set(revolute)
     # Of a shape, mass and centre follow.
     assert inspect.signature(td.Mechanism.body).parameters["mass"].default is None
-    assert "clearance" not in inspect.signature(td.Mechanism.prismatic).parameters
+    assert "clearance" not in inspect.signature(td.Mechanism.universal).parameters
     assert {"gravity", "run", "solver"} <= set(inspect.signature(td.Mechanism).parameters)
 
 

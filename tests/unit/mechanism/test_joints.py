@@ -202,7 +202,8 @@ def test_a_clearance_of_another_shape_or_without_a_size_is_refused(kind: str, sh
             refused(kind, f"{JOINTS[kind].named} has the shape", clearance=about.EXAMPLE | {"shape": other})
         for key in about.KEYS.model_fields.keys() - SHAPES[shape].KEYS.model_fields.keys():
             if key in about.EXAMPLE:
-                reason = f"clearance.{key}: .*this belongs to the shape {other}, not to {shape}"
+                owners = "|".join(name for name, one in SHAPES.items() if key in one.KEYS.model_fields)
+                reason = f"clearance.{key}: .*this belongs to the shape ({owners}), not to {shape}"
                 refused(kind, reason, clearance=sizes | {key: about.EXAMPLE[key]})
 
 

@@ -4,9 +4,11 @@ from collections.abc import Callable
 from typing import Final
 
 from tribodyn.joints.shapes.cylinder import Cylinder
+from tribodyn.joints.shapes.guide import Guide, Wall
 from tribodyn.joints.shapes.mesh import Mesh
 from tribodyn.joints.shapes.rings import Annulus
 from tribodyn.joints.shapes.round import Ball, Sphere
+from tribodyn.joints.shapes.slot import Slot
 from tribodyn.joints.shapes.surface import Points, Shape, Surface
 
 SHAPES: Final[dict[str, Callable[..., Shape]]] = {
@@ -15,7 +17,22 @@ SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "sphere": Sphere,
     "ball": Ball,
     "mesh": Mesh,
+    "guide": Guide,
+    "slot": Slot,
 }
 """Made with their sizes by name."""
 
-__all__ = ["SHAPES", "Annulus", "Ball", "Cylinder", "Mesh", "Points", "Shape", "Sphere", "Surface"]
+__all__ = [
+    "SHAPES",
+    "Annulus",
+    "Ball",
+    "Cylinder",
+    "Guide",
+    "Mesh",
+    "Points",
+    "Shape",
+    "Slot",
+    "Sphere",
+    "Surface",
+    "Wall",
+]

@@ -35,14 +35,11 @@ class Mesh:
         Gap as drawn, everywhere [m].
     edge
         Longest edge that a triangle may have [m]; longer ones are split.
-    slides
-        1 for a guide, along whose axis the shaft slides any way; all triangles then stand along the axis.
     """
 
     facets: FloatArray
     clearance: float
     edge: float
-    slides: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse invalid meshes."""
@@ -75,7 +72,6 @@ class Mesh:
                 gap=np.full(area.size, self.clearance),
                 rows=patches(position, normal, area),
                 tilt=WHOLE,
-                slides=bool(self.slides),
                 size=float(np.sqrt(area.sum() / np.pi)),
                 axes={"node": np.arange(area.size, dtype=np.float64)},
             ),

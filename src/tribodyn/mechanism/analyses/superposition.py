@@ -7,7 +7,8 @@ clearance c against the reaction, turned by the angle of friction,
 
 s being the sense of rotation of the shaft. A cylinder of length L touches at both ends, each of which carries
 F/2 ∓ z × M / L of force F and moment M: ends on one side displace the shaft, ends on opposite sides tilt it.
-The pieces of elastic bodies yield to their reactions by their flexibility.
+Between flat walls a shaft goes and tilts as far as these let force and moment push it; friction
+acts along them. The pieces of elastic bodies yield to their reactions by their flexibility.
 
 By virtual work an output moves with the displacement (e, φ) of joint k by the reaction in k to a unit load
 along the output; with the constraints G of the ideal mechanism, and those of the joint N over (e, φ), by
@@ -26,6 +27,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
+from tribodyn.joints.flat_walls import FlatWalls, resting
 from tribodyn.joints.shapes import Cylinder, Sphere
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_global_axes, motion_of
@@ -60,9 +62,13 @@ class JointReaction:
     spin: FloatArray
 
     def displacements(self) -> FloatArray:
-        """Return displacement and rotation of the shaft by cause, shape (n_t, 3, 6), see ``CAUSES``."""
-        straight, turned = self._ends(0.0), self._ends(math.atan(self.friction))
+        """Return displacement and rotation of the shaft by cause, shape (n_t, 4, 6), see ``CAUSES``."""
         found = np.zeros((len(self.force), len(CAUSES), 6))
+        if isinstance(self.clearance.shape, FlatWalls):
+            rests = resting(self.clearance.shape, -np.hstack([self.force, self.moment]))
+            found[:, 0, :3], found[:, 1, 3:] = rests[:, :3], rests[:, 3:]
+            return found
+        straight, turned = self._ends(0.0), self._ends(math.atan(self.friction))
         found[:, 0, :3] = straight.mean(axis=0)
         found[:, 2, :3] = turned.mean(axis=0) - found[:, 0, :3]
         if isinstance(self.clearance.shape, Cylinder):

@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.joints import Friction
 from tribodyn.joints.clearances import Clearance, table_of
-from tribodyn.joints.shapes import Ball, Cylinder, Mesh, Shape, Sphere
+from tribodyn.joints.shapes import Ball, Cylinder, Guide, Mesh, Shape, Slot, Sphere
 from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
 from tribodyn.mechanism.frames import GROUND, cross, frame
@@ -25,7 +25,7 @@ from tribodyn.mechanism.model.parts import CONFORMAL, NOTHING, ClearanceKeys, Jo
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.bushing import Bearing
 
-_Round: TypeAlias = Cylinder | Sphere | Ball
+_Sized: TypeAlias = Cylinder | Sphere | Ball | Guide | Slot
 _COARSE: Final = (12, 2)
 """A grid, whose surfaces are as large as those of any."""
 NOT_WORN: Final[Mapping[str, float]] = {}
@@ -171,7 +171,7 @@ def _cold(case: MechanismCase, joint: JointKeys, keys: ClearanceKeys) -> Any:
     return SHAPES[joint.shape].of(keys, local)
 
 
-def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _Round:
+def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Sized) -> _Sized:
     """Return the shape of a clearance at the temperatures of the run.
 
     Of faces at both ends the play between the flanges of the shaft changes, shared as drawn. Against one face
@@ -182,6 +182,12 @@ def _hot(case: MechanismCase, name: str, keys: ClearanceKeys, cold: _Round) -> _
         return cold
     names, surfaces = _names(name, keys), case.of_pair(keys).surfaces
     geometry = _geometry(cold)
+    if isinstance(cold, Guide):
+        return cold.grown_by(
+            lambda distance: (
+                temperature.hot(replace(geometry, radius=distance), surfaces, keys.liner, names).clearance
+            )
+        )
     warm = temperature.hot(geometry, surfaces, keys.liner, names)
     shape = replace(cold, radius=warm.radius, clearance=warm.clearance)
     if not isinstance(shape, Cylinder):
@@ -207,8 +213,8 @@ def _names(name: str, keys: ClearanceKeys) -> Names:
     return Names(f"{joint}radial", joint, f"{joint}temperature.", pair)
 
 
-def _geometry(shape: _Round) -> Cylinder:
-    """Return the dimensions of a round shape that temperatures change: those of the cylinder about a ball."""
+def _geometry(shape: _Sized) -> Cylinder:
+    """Return the dimensions that temperatures change: those of the cylinder about a ball, or in a channel."""
     return (
         shape if isinstance(shape, Cylinder) else Cylinder(shape.radius, shape.clearance, 2.0 * shape.radius)
     )

@@ -350,6 +350,8 @@ class JointLoads:
         """Return displacement and tilt of a shaft where it was evaluated last, shape (6,)."""
         pose = self.couplings["pose"][contact.coupling]
         rotation = pose["rotation"]
+        if not contact.gradient[:, 3:5].any():
+            return np.array([*pose["d"], 0.0, 0.0, rotation[1, 0] / rotation[0, 0]])
         x, y, z = rotation[:, 2]
         twist = 0.5 * (rotation[1, 0] - rotation[0, 1])
         return np.array([*pose["d"], -y / z, x / z, twist])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceData
-from tribodyn.kernels.joints.surface.tilt import NO_TILT
+from tribodyn.kernels.joints.surface.tilt import LINE, NO_TILT
 
 _ROOM: Final = 2**16
 """Entries of the stiffness of couplings that are taken together."""
@@ -177,7 +177,8 @@ def nodes_of(joints: SurfaceData, couplings: IntArray) -> list[JointNodes]:
         counts = surfaces["last_node"] - surfaces["first_node"]
         nodes = joints.nodes[:, surfaces["first_node"][0] : surfaces["last_node"][-1]].T
         position, normal = nodes[:, POSITION:NORMAL], nodes[:, NORMAL : NORMAL + 3]
-        turning = np.cross(position, normal) * np.repeat(surfaces["tilt"] != NO_TILT, counts)[:, None]
+        kinds = np.repeat(surfaces["tilt"], counts)[:, None]
+        turning = np.where(kinds == LINE, [0.0, 0.0, 1.0], kinds != NO_TILT) * np.cross(position, normal)
         found.append(
             JointNodes(
                 coupling=int(coupling),

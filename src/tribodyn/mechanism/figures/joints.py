@@ -63,7 +63,7 @@ def draw_hodographs(dataset: xr.Dataset) -> Figure:
 def _along(surface: str) -> str:
     """Return the label of the second coordinate of a surface: height, radius of a face, or arc of a ball."""
     name = surface.rpartition(":")[2]
-    return f"{'radius' if name in ('upper', 'lower') else 'arc' if name == 'ball' else 'height'} [mm]"
+    return f"{'radius' if name.endswith('face') else 'arc' if name == 'ball' else 'height'} [mm]"
 
 
 HODOGRAPHS: Final = Family(

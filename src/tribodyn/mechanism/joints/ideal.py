@@ -61,6 +61,10 @@ class Prismatic(JointType):
     ROWS: ClassVar[tuple[Row, ...]] = (*ON_AXIS, *ALIGNED, NO_TURN)
     AXIS: ClassVar[str] = "axis"
     COORDINATES: ClassVar[tuple[str, ...]] = ("position",)
+    SHAPE: ClassVar[str] = "square"
+    CLEARANCE: ClassVar[str] = (
+        'block in a channel; `shape = "dovetail"`, or `"cylinder"` for a round bar, which also turns'
+    )
 
 
 class PinSlot(JointType):
@@ -73,6 +77,21 @@ class PinSlot(JointType):
     COORDINATES: ClassVar[tuple[str, ...]] = ("position",)
     SHAPE: ClassVar[str] = "ball"
     CLEARANCE: ClassVar[str] = 'ball in a bore; `shape = "cylinder"` for a pin that does not tilt in it'
+
+
+class Slot(JointType):
+    """A round pin of the second body in a slot of the first."""
+
+    NAME: ClassVar[str] = "slot"
+    MEANING: ClassVar[str] = (
+        "a pin of the second body, along `second_axis`, slides along `axis` between flat walls"
+    )
+    ROWS: ClassVar[tuple[Row, ...]] = (AT_POINT[1], (DIRECTION, 1, 0))
+    AXIS: ClassVar[str] = "direction of the slot"
+    SECOND_AXIS: ClassVar[str] = "axis of the pin"
+    COORDINATES: ClassVar[tuple[str, ...]] = ("position",)
+    SHAPE: ClassVar[str] = "slot"
+    CLEARANCE: ClassVar[str] = "pin between two flat walls"
 
 
 class Planar(JointType):

@@ -90,9 +90,19 @@ class _Sizes(NamedGroup):
 
     radius: float | None = quantity(None, "radius of the pin or ball", "", gt=0, example="9.5 mm")
     radial: float | None = quantity(
-        None, "radial clearance: radius of the bore minus radius of the pin", "", gt=0, example="20 um"
+        None,
+        "radial clearance: radius of the bore minus radius of the pin; gap at each flat wall, centred",
+        "",
+        gt=0,
+        example="20 um",
     )
-    length: float | None = quantity(None, "length of the bore of a cylinder", "", gt=0, example="20 mm")
+    length: float | None = quantity(
+        None,
+        "length of the bore of a cylinder, of the block of a guide, of the pin in a slot",
+        "",
+        gt=0,
+        example="20 mm",
+    )
 
 
 if TYPE_CHECKING:

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import Stopped
 from tribodyn.core.quantities import Record
@@ -18,6 +19,7 @@ from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 from tribodyn.kernels.joints.surface.quantities import PLASTIC
+from tribodyn.kernels.joints.surface.tilt import LINE, WHOLE
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanisms.bushing import loading
 from tribodyn.mechanisms.self_checks import (
@@ -28,7 +30,7 @@ from tribodyn.mechanisms.self_checks import (
     of_load,
     of_plastic,
 )
-from tribodyn.wear import resampled
+from tribodyn.wear import between_edges, resampled
 
 _NOTED: Final = 4
 """Surfaces of which the same is noted."""
@@ -156,7 +158,8 @@ class Contacts:
             if clearance.contact != SURFACE:
                 continue
             own, number = slice(int(data.joints[j]), int(data.joints[j + 1])), self.numbers[j]
-            poses = [_pose(rows, number, row, openings[row, j]) for row in some]
+            tilt = float(data.surfaces["tilt"][own].max())
+            poses = [_pose(rows, number, row, openings[row, j], tilt) for row in some]
             try:
                 fine = chosen.grid(j, clearance)
                 pairs = [
@@ -175,7 +178,7 @@ class Contacts:
             off = np.max(np.linalg.norm(forces[:, 0] - forces[:, 1], axis=-1), axis=0)
             error[own] = off / largest if largest > 0.0 else 0.0
             hardest = int(np.argmax(rows["pressure_max"][:, number]))
-            pose = _pose(rows, number, hardest, openings[hardest, j])
+            pose = _pose(rows, number, hardest, openings[hardest, j], tilt)
             at_rest[own] = _reported(*fine, 0, pose)["p_max"]
         return error, at_rest
 
@@ -243,14 +246,21 @@ def _resampled(depth: FloatArray, place: Place, there: Place) -> FloatArray:
         return depth
     if not np.any(np.abs(depth) > np.spacing(place.surface.gap)):
         return np.zeros(there.surface.area.size)
-    (rows, _), (fine_rows, fine_angles) = (tuple(one.surface.axes.values()) for one in (place, there))
-    return resampled(depth.reshape(place.surface.field_shape), rows, fine_rows, fine_angles.size).ravel()
+    (rows, angles), (fine_rows, fine_angles) = (tuple(one.surface.axes.values()) for one in (place, there))
+    field = depth.reshape(place.surface.field_shape)
+    if place.surface.tilt in (WHOLE, LINE):
+        return between_edges(between_edges(field, rows, fine_rows), angles, fine_angles, axis=1).ravel()
+    return resampled(field, rows, fine_rows, fine_angles.size).ravel()
 
 
-def _pose(rows: Mapping[str, FloatArray], number: int, row: int, opening: FloatArray) -> Record:
-    """Return the attitude of the shaft of a joint, at rest."""
+def _pose(rows: Mapping[str, FloatArray], number: int, row: int, opening: FloatArray, tilt: float) -> Record:
+    """Return the attitude of the shaft of a joint, at rest, as its surfaces with their tilt see it."""
     tilt_x, tilt_y = rows["tilt_x"][row, number], rows["tilt_y"][row, number]
-    axes = frame(np.array([tilt_y, -tilt_x, 1.0]), np.array([1.0, 0.0, 0.0]))
+    if tilt == LINE:
+        tilt_x = tilt_y = 0.0
+    twist = rows["joint_angle"][row, number] if tilt in (WHOLE, LINE) else 0.0
+    across = np.array([portable.cos(twist), portable.sin(twist), 0.0])
+    axes = frame(np.array([tilt_y, -tilt_x, 1.0]), across)
     pose = pose_at(rows["displacement"][row, number], axes)
     pose.opening[:] = opening
     return pose

@@ -104,7 +104,7 @@ OF_LARGE: Final = (
 _OF_LEGS: Final = ("reaction_force", "reaction_moment", "displacement", "relative_velocity")
 """Inputs of the forces and moments of elements."""
 _ALWAYS: Final = ("reaction_force", "drive_moment", "drive_force")
-_OF_CLEARANCES: Final = ("tilt_x", "tilt_y", "displacement", "pressure_max")
+_OF_CLEARANCES: Final = ("tilt_x", "tilt_y", "joint_angle", "displacement", "pressure_max")
 _OF_FLASH: Final = ("relative_velocity", "relative_rate", "gap_min")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Place
-from tribodyn.joints.shapes import Ball, Cylinder, Sphere
+from tribodyn.joints.shapes import Mesh
 from tribodyn.kernels import dense
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
 from tribodyn.mechanism.analyses.kinematics import velocity_ratios
@@ -45,7 +45,7 @@ def kinematic_columns(
     estimate, real = np.zeros(shape), {}
     for name, clearance in model_of(case).clearances.items():
         k, keys = assembly.model.joints.index(name), case.joints[name].clearance
-        known = clearance.film is None and isinstance(clearance.shape, (Cylinder, Sphere, Ball))
+        known = clearance.film is None and not isinstance(clearance.shape, Mesh)
         estimate[:, :, k] = 0.0 if known else np.nan
         if known and keys is not None:
             force, moment = couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k]

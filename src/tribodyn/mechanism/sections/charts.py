@@ -235,6 +235,32 @@ CLEARANCES: Final = Chart(
     needs=("displacement", "clearance", "pressure_max", "joint"),
     panels=clearances,
 )
+
+
+def guides(dataset: xr.Dataset) -> list[Panel]:
+    """Return where the blocks of guides touch, a step for each situation, and their tilts in the play [°]."""
+    real = np.isfinite(dataset["guide_contact"].values).any(axis=0)
+    names = [name for name, wanted in zip(_names(dataset, "joint"), real, strict=True) if wanted]
+    tilt = np.hypot(*(dataset[name].values[:, real] for name in ("tilt_x", "tilt_y")))
+    return _panels(
+        (
+            "contact: free 0, corner 1,\nface 2, opposite faces 3",
+            curves(names, dataset["guide_contact"].values[:, real]),
+        ),
+        ("tilt in the play [°]", curves(names, DEG * tilt)),
+    )
+
+
+GUIDES: Final = Chart(
+    name="guides",
+    title="Blocks in their guides",
+    caption=(
+        "Where a block, or a pin in a slot, touches its walls: 0 nowhere, 1 at one corner, 2 at two "
+        "corners of one face or on all of it, 3 on opposite faces, tilted as far as its play goes."
+    ),
+    needs=("guide_contact", "tilt_x", "tilt_y", "joint"),
+    panels=guides,
+)
 FILMS: Final = Chart(
     name="films",
     title="Oil films",
@@ -242,7 +268,7 @@ FILMS: Final = Chart(
     needs=("film_force", "film_pressure_max", "film_thickness_min", "film_pressure_peak", "joint"),
     panels=films,
 )
-CHARTS: Final = (MODES, OUTPUT_ERRORS, ERROR_ESTIMATES, JOINT_FORCES, CLEARANCES, FILMS, MOTION)
+CHARTS: Final = (MODES, OUTPUT_ERRORS, ERROR_ESTIMATES, JOINT_FORCES, CLEARANCES, GUIDES, FILMS, MOTION)
 """In reading order, of the report and of ``figures/``; the energy balance follows."""
 ENERGY: Final = balance_chart(
     WHOLE,

@@ -8,8 +8,11 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray, IntArray
+from tribodyn.joints.flat_walls import FlatWalls
 from tribodyn.mechanism.assembly.skeleton import case_of
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections.charts import Shafts
+from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.views.bushing import Unrolled, best_cut, shares
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over, over_time
 from tribodyn.views.events import peak
@@ -24,6 +27,10 @@ MOST: Final = 8
 _AXES: Final = "xyz"
 _LINE: Final = 1.0e-3
 """Range of a force across its line, over its size, up to which it keeps its direction."""
+_NEXT: Final = 1.5
+"""Widths of a gap between nodes above which a surface ends there."""
+_EDGE: Final = 1.0e-3
+"""Angle beside a wall at which nothing of it is drawn [rad]."""
 LAID_FLAT: Final = (
     "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
     "or arc of a ball."
@@ -143,6 +150,15 @@ def hodographs(dataset: xr.Dataset) -> Payload | None:
     return choice("lines", f"joint{chosen.which}", parts)
 
 
+def room_of(case: MechanismCase | None, joint: int) -> FloatArray:
+    """Return the corners of the room between flat walls over the clearance, (n, 2); none in a bore."""
+    keys = None if case is None else list(case.joints.values())[joint]
+    if keys is None or keys.real is None:
+        return np.zeros((0, 2))
+    shape = SHAPES[keys.shape].of(keys.real, np.asarray)
+    return shape.room() / shape.clearance if isinstance(shape, FlatWalls) else np.zeros((0, 2))
+
+
 def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
     """Return the places of the shafts of joints with clearance, across their axes, and which joints."""
     times = playback_times(dataset)
@@ -154,7 +170,9 @@ def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
         j: OrbitPath("shaft", *(1e6 * x[:, :2] for x in (shafts.path(j), shafts.at(j, times))))
         for j in chosen.joints
     }
-    return [Orbit(names[j], float(clearance[j]), (track,)) for j, track in tracks.items()], chosen.which
+    corners = {j: (clearance[j] * room_of(shafts.case, j)).tolist() for j in tracks}
+    found = [Orbit(names[j], float(clearance[j]), (tracks[j],), corners[j]) for j in tracks]
+    return found, chosen.which
 
 
 @dataclass(frozen=True)
@@ -229,6 +247,15 @@ def laid_flat(place: FloatArray, theta: FloatArray, fields: FloatArray) -> Unrol
     return Unrolled(theta, place * 1e3 - middle, best_cut(theta, shares(fields)), 0.0, middle)
 
 
+def _alone(theta: FloatArray, field: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return angles and a field (n, n_rows, n_theta), zero beside a surface that is not all around."""
+    step = float(np.max(np.diff(theta), initial=0.0))
+    if theta[-1] - theta[0] + _NEXT * step > 2.0 * np.pi:
+        return theta, field
+    beside = np.concatenate([[theta[0] - _EDGE], theta, [theta[-1] + _EDGE]])
+    return beside, np.pad(field, ((0, 0), (0, 0), (1, 1)))
+
+
 def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
     """Yield name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows), of the surfaces.
 
@@ -251,8 +278,8 @@ def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, 
         place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
         rows, columns = np.append(True, np.diff(place) > 0.0), np.append(True, np.diff(theta) > 0.0)
         if np.count_nonzero(rows) > 1:
-            own = field[:, rows][:, :, columns]
-            yield str(surface), place[rows], theta[columns], own.transpose(0, 2, 1)
+            angles, own = _alone(theta[columns], field[:, rows][:, :, columns])
+            yield str(surface), place[rows], angles, own.transpose(0, 2, 1)
 
 
 HODOGRAPHS: Final = Section(
@@ -276,9 +303,9 @@ ORBITS: Final = OrbitView(
     name="orbits",
     title="Shafts in their bores",
     caption=(
-        "Seen along the axis of the joint, X and Y are its axes x and y. The circle is the clearance, the "
-        "mark is the centre of the shaft now, the line its path. Beyond the circle the mean planes of the "
-        "surfaces overlap."
+        "Seen along the axis of the joint, X and Y are its axes x and y. The circle is the clearance, of a "
+        "guide the area that its walls leave; the mark is the centre of the shaft now, the line its path. "
+        "Beyond it the mean planes of the surfaces overlap."
     ),
     needs=("displacement", "clearance", "joint", "surface"),
     still="orbits",

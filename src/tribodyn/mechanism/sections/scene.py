@@ -8,6 +8,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.joints.flat_walls import FlatWalls
+from tribodyn.joints.shapes import Guide, Slot
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
 from tribodyn.mechanism.frames import frame
@@ -16,6 +18,7 @@ from tribodyn.mechanism.model.parts import JointKeys
 from tribodyn.mechanism.sections.charts import Shafts
 from tribodyn.mechanism.sections.joints import loaded_joints
 from tribodyn.mechanism.sections.load_arrows import load_arrows
+from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.views.encode import packed
 from tribodyn.views.numbers import fitting, in_words
 from tribodyn.views.playback import magnification, playback_times
@@ -46,22 +49,53 @@ def clearances(
     found = {}
     for number, (name, joint) in enumerate(case.joints.items()):
         keys = joint.real
-        if keys is None or keys.radius is None or not np.isfinite(known[number]):
+        if keys is None or not np.isfinite(known[number]):
+            continue
+        shape = SHAPES[joint.shape].of(keys, np.asarray)
+        if keys.radius is None and not isinstance(shape, Guide):
             continue
         to_global = _axes(case, joint, drawn, orientation)
         offset, tilt = shafts.at(number, times), _tilt(dataset, number, times)
+        tilt = 0.0 * offset if isinstance(shape, Slot) else tilt
+        walls = _walls(shape, keys.through, MM * offset[:, 2]) if isinstance(shape, FlatWalls) else {}
+        if walls:
+            walls |= {"slid": packed(MM * offset[:, 2]), "aside": packed(to_global[:, :, 0])}
         if joint.kind.COORDINATES:
             offset = offset * [1.0, 1.0, 0.0]
         if not (np.isfinite(offset).all() and np.isfinite(tilt).all()):
             continue
         found[name] = {
-            "radius": MM * keys.radius,
+            "radius": MM * (keys.radius or shape.radius),
             "length": MM * (keys.length or 0.0),
             "radial": MM * float(known[number]),
             "offset": packed(MM * np.einsum("nij,nj->ni", to_global, offset)),
             "tilt": packed(np.einsum("nij,nj->ni", to_global, tilt)),
+            **walls,
         }
     return found
+
+
+def _walls(shape: FlatWalls, through: bool, way: FloatArray) -> dict[str, Any]:
+    """Return the cross-sections of walls that a block or pin slides some way along, and their ends [mm].
+
+    Each has its corners, and by how much a gap sets them off. A pin has half its length across its slot.
+    """
+    half, low, high = 0.5 * MM * shape.length, float(way.min(initial=0.0)), float(way.max(initial=0.0))
+    if isinstance(shape, Slot):
+        r = MM * shape.radius
+        plates = [
+            [[x, side * y] for x, y in ((-half, r), (half, r), (half, 1.5 * r), (-half, 1.5 * r))]
+            for side in (1, -1)
+        ]
+        sections = [
+            {"corners": plate, "ways": 4 * [[0, side]]} for plate, side in zip(plates, (1, -1), strict=True)
+        ]
+        return {"walls": sections, "across": True, "half": half, "ends": [low - 1.5 * r, high + 1.5 * r]}
+    corners, ways = shape.outline()
+    sections = [{"corners": (MM * corners).tolist(), "ways": ways.tolist()}]
+    if through:
+        return {"walls": sections, "half": half + max(high, -low), "ends": [-half, half]}
+    return {"walls": sections, "half": half, "ends": [low - half, high + half]}
 
 
 def magnified(found: Iterable[dict[str, Any]]) -> dict[str, Any] | None:

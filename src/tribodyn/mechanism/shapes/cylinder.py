@@ -56,7 +56,7 @@ class ShaftInBore(ClearanceShape):
     """A shaft in a bore."""
 
     NAME: ClassVar[str] = "cylinder"
-    TYPES: ClassVar[tuple[str, ...]] = ("revolute", "cylindrical", "pin-slot")
+    TYPES: ClassVar[tuple[str, ...]] = ("revolute", "cylindrical", "pin-slot", "prismatic")
     NEEDED: ClassVar[dict[str, str]] = {**ClearanceShape.NEEDED, "length": "the length of the bore"}
     EXAMPLE: ClassVar[dict[str, object]] = {**ClearanceShape.EXAMPLE, "length": "20 mm"}
     KEYS: ClassVar[type[NamedGroup]] = BoreKeys

@@ -23,6 +23,7 @@ function jointAt(data, { points, clearance }, frame, magnification) {
   const ball = Math.hypot(...direction) < 0.5;
   const [axis, least] = [unit(direction), THICK.joint * data.size];
   if (!clearance) return { at, pin: at, axis, along: axis, ball, radius: ball ? 1.2 * least : least, half: 0.5 * THICK.pin * data.size };
+  if (clearance.walls) return blockAt(at, axis, clearance, frame, magnification);
   const radius = Math.max(clearance.radius, 0.6 * least);
   const ring = isRing(clearance);
   // All joints are magnified alike, but a wide clearance stays within what is drawn of its bore.
@@ -41,6 +42,22 @@ function jointAt(data, { points, clearance }, frame, magnification) {
   };
 }
 
+/** Return the block of a guide, slid along its axis, and its channel from end to end of the way of the block. */
+function blockAt(at, axis, { offset, tilt, slid, aside, radius, radial, half, ends }, frame, magnification) {
+  const factor = Math.min(magnification, radius / radial);
+  const pin = plus(plus(at, axis, slid[Math.min(frame, slid.length - 1)]), pointNow(offset, 1, frame, 0), factor);
+  const along = unit(plus(axis, pointNow(tilt, 1, frame, 0), factor));
+  return { at, pin, axis, along, radius, half, ends, gap: factor * radial, aside: pointNow(aside, 1, frame, 0) };
+}
+
+/** Add a block or a wall: its cross-section between two places along an axis, set off by a gap. */
+function addPrism(solid, middle, along, aside, { corners, ways }, [from, to], gap, colour) {
+  const up = unit(cross(along, aside));
+  const section = (way) =>
+    corners.map(([x, y], k) => plus(plus(plus(middle, along, way), aside, x + gap * ways[k][0]), up, y + gap * ways[k][1]));
+  solid.loft([section(from), section(to)], colour);
+}
+
 /** Tell whether a bore is so short for its radius that pin and bore are drawn as rings: a disc would hide what is behind. */
 function isRing({ radius, length }) {
   return length > 0 && radius > SHORT * length;
@@ -48,8 +65,10 @@ function isRing({ radius, length }) {
 
 /** Add the pin or ball of a joint. */
 function addJoint(solid, data, joint, frame, magnification, colour) {
-  const { pin, along, ball, radius, half, ring, wall } = jointAt(data, joint, frame, magnification);
-  if (ball) solid.ball(pin, radius, colour);
+  const { pin, along, ball, radius, half, ring, wall, aside } = jointAt(data, joint, frame, magnification);
+  if (aside && joint.clearance.across) solid.rod(plus(pin, aside, -1.1 * half), plus(pin, aside, 1.1 * half), radius, colour, 20);
+  else if (aside) addPrism(solid, pin, along, aside, joint.clearance.walls[0], [-half, half], 0, colour);
+  else if (ball) solid.ball(pin, radius, colour);
   else if (ring) solid.sleeve(pin, along, half, radius - wall, radius, colour, RING_PARTS);
   else solid.rod(plus(pin, along, -half), plus(pin, along, half), radius, colour, 20);
 }
@@ -58,9 +77,10 @@ function addJoint(solid, data, joint, frame, magnification, colour) {
 function addBores(solid, data, frame, magnification) {
   const colour = [...theme.rgb("part-bushing"), BORE];
   for (const joint of data.joints.filter(({ clearance }) => clearance)) {
-    const { at, axis, ball, radius, gap, half, ring, wall } = jointAt(data, joint, frame, magnification);
+    const { at, axis, ball, radius, gap, half, ring, wall, aside, ends } = jointAt(data, joint, frame, magnification);
     const bore = radius + gap;
-    if (ball) solid.ball(at, bore, colour, 20);
+    if (aside) for (const wall of joint.clearance.walls) addPrism(solid, at, axis, aside, wall, ends, gap, colour);
+    else if (ball) solid.ball(at, bore, colour, 20);
     else if (ring) solid.sleeve(at, axis, 0.8 * half, bore, bore + wall, colour, RING_PARTS);
     else solid.sleeve(at, axis, 0.8 * half, bore, Math.max(1.8 * radius, bore + wall), colour);
   }

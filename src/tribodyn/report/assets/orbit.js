@@ -77,10 +77,10 @@ function drawOrbitAxes(pen, { data, ghosts, frame, x, y }) {
   drawGrid(pen, frame, marks, x, true);
   drawGrid(pen, frame, marks, y, false);
   inside(pen, frame, () => {
-    for (const ghost of ghosts) drawClearance(pen, ghost.data.clearance, x, y, ghost.strength, [4, 3]);
-    drawClearance(pen, data.clearance, x, y, 1, []);
+    for (const ghost of ghosts) drawClearance(pen, ghost.data, x, y, ghost.strength, [4, 3]);
+    drawClearance(pen, data, x, y, 1, []);
   });
-  if (data.clearance > 0) nameAngles(pen, data.clearance, x, y);
+  if (data.clearance > 0 && !data.corners?.length) nameAngles(pen, data.clearance, x, y);
   drawBelow(pen, frame, marks, x, "X [µm]");
   pen.save();
   pen.translate(frame.left - ORBIT.left, 0);
@@ -88,11 +88,12 @@ function drawOrbitAxes(pen, { data, ghosts, frame, x, y }) {
   pen.restore();
 }
 
-/** Draw a clearance circle; that of the run itself is filled. */
-function drawClearance(pen, clearance, x, y, strength, dash) {
+/** Draw a clearance circle, or the area that flat walls leave; that of the run itself is filled. */
+function drawClearance(pen, { clearance, corners = [] }, x, y, strength, dash) {
   if (!(clearance > 0)) return;
   pen.beginPath();
-  pen.arc(x.at(0), y.at(0), x.at(clearance) - x.at(0), 0, 2 * Math.PI);
+  if (corners.length) for (const [across, up] of [...corners, corners[0]]) pen.lineTo(x.at(across), y.at(up));
+  else pen.arc(x.at(0), y.at(0), x.at(clearance) - x.at(0), 0, 2 * Math.PI);
   pen.fillStyle = theme.colour("fill");
   if (strength === 1) pen.fill();
   Object.assign(pen, { strokeStyle: theme.colour("quiet"), lineWidth: 1.5, globalAlpha: strength });

@@ -41,12 +41,12 @@ def update_entry_velocity(
     onset, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0
     for r in range(surface.first_row, surface.last_row):
         row = data.rows[r]
-        near = is_near(row, station, tilt.phi, onset)
+        near = is_near(row, station, tilt.phi, onset - station.opening)
         if near:
             for i in range(np.uint64(row.first), np.uint64(row.first + row.count)):
-                approach = heed * node_approach(data.nodes, i, station.v, tilt.rate)
-                known = reference_velocity(entry_velocity[i], approach, surface.minimum_entry_velocity)
-                gap = node_gap(data.nodes, i, station.d, tilt.phi)
+                speed = node_approach(data.nodes, i, station.v, tilt.rate) - station.v_opening
+                known = reference_velocity(entry_velocity[i], heed * speed, surface.minimum_entry_velocity)
+                gap = node_gap(data.nodes, i, station.d, tilt.phi) + station.opening
                 entry_velocity[i] = known if gap < onset else 0.0
         elif memory.remembering[r] > 0.0:
             forget(row.first, row.first + row.count, entry_velocity)
@@ -61,15 +61,16 @@ def pressure_field(
     tilt, table = memory.scratch.tilt, table_of(data, surface)
     limit = surface.h_last * surface.roughness
     for i in range(surface.first_node, surface.last_node):
-        gap = node_gap(data.nodes, i, station.d, tilt.phi)
+        gap = node_gap(data.nodes, i, station.d, tilt.phi) + station.opening
         pressure[i] = 0.0
         if gap < limit:
-            _, pressure[i], _, _ = node_pressure(
+            _, found, _, _ = node_pressure(
                 table,
                 surface.roughness,
                 surface.minimum_entry_velocity,
                 surface.tensile_clip,
                 gap,
-                node_approach(data.nodes, i, station.v, tilt.rate),
+                node_approach(data.nodes, i, station.v, tilt.rate) - station.v_opening,
                 memory.entry_velocity[i],
             )
+            pressure[i] = min(found, surface.hardness)

@@ -126,7 +126,7 @@ def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
     r, taken, n = cursor[0], cursor[1], 0
     while r < surface.last_row and n < PART:
         row, left = data.rows[r], 0
-        if is_near(row, station, phi, limit):
+        if is_near(row, station, phi, limit - station.opening):
             size = min(row.count - taken, PART - n)
             _load(
                 nodes,

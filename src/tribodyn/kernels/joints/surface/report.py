@@ -108,7 +108,7 @@ def _far_separation(data: SurfaceData, surface: Record, station: Record, phi: Fl
         row = data.rows[r]
         if row.whole > 0.0:
             for i in range(row.first, row.first + row.count):
-                least = min(least, node_gap(data.nodes, i, station.d, phi))
+                least = min(least, node_gap(data.nodes, i, station.d, phi) + station.opening)
         else:
             a, b = row.normal[0] * d[0] + row.arm * phi[1], row.normal[0] * d[1] - row.arm * phi[0]
             square = a * a + b * b

@@ -6,9 +6,10 @@ the moment on the shaft is M = Gᵀ m, and approach speeds are taken with φ̇. 
 tilted shaft that spins about its own axis would do work against frictionless walls: by Ω (m_y φ_x − m_x
 φ_y), first order in the tilt.
 
-Three kinds of surfaces: a sphere has no tilt. On a surface of revolution only the axis a of the shaft counts,
+Four kinds of surfaces: a sphere has no tilt. On a surface of revolution only the axis a of the shaft counts,
 φ = (−a_y/a_z, a_x/a_z, 0), so that it passes the height z where gaps say it does. Any other surface is held
-against turning about Z, too, with φ_z = ½ (R_yx − R_xy), the sine of a small twist.
+against turning about Z, too, with φ_z = ½ (R_yx − R_xy), the sine of a small twist. A pin along X that turns
+in a slot between flat walls has φ_z = b_y/b_x alone, b being its axis.
 
 The cross-section of a tilted cylinder is an ellipse. With the slope of the axis, l = φ × ẑ, the gap at the
 radial normal n and the height z is
@@ -30,6 +31,7 @@ from tribodyn.kernels.jit import kernel
 NO_TILT: Final = 0.0
 AXIS: Final = 1.0
 WHOLE: Final = 2.0
+LINE: Final = 3.0
 
 Tilt: Final = record_type(
     ("phi", "f8", (3,)), ("rate", "f8", (3,)), ("to_rate", "f8", (3, 3)), ("rate_turn", "f8", (3, 3))
@@ -44,7 +46,7 @@ def fill_tilt(kind: float, rotation: FloatArray, w: FloatArray, tilt: Record) ->
     Parameters
     ----------
     kind
-        ``NO_TILT``, ``AXIS`` or ``WHOLE``.
+        ``NO_TILT``, ``AXIS``, ``WHOLE`` or ``LINE``.
     rotation, w
         Of the pose.
     tilt
@@ -54,7 +56,11 @@ def fill_tilt(kind: float, rotation: FloatArray, w: FloatArray, tilt: Record) ->
     clear(matrix)
     for i in range(3):
         phi[i] = rate[i] = 0.0
-    if kind != NO_TILT:
+    if kind == LINE:
+        z, q = rotation[1, 0] / rotation[0, 0], rotation[2, 0] / rotation[0, 0]
+        phi[2] = z
+        matrix[2, 0], matrix[2, 1], matrix[2, 2] = -q, -z * q, 1.0 + z * z
+    elif kind != NO_TILT:
         x, y = -rotation[1, 2] / rotation[2, 2], rotation[0, 2] / rotation[2, 2]
         phi[0], phi[1] = x, y
         matrix[0, 0], matrix[0, 1], matrix[0, 2] = 1.0 + x * x, x * y, -y
@@ -84,7 +90,16 @@ def fill_derivatives(
     """Fill ``tilt.rate_turn`` and add ∂(Gᵀ m)/∂ϑ with m held fixed to the columns of ``out`` (3, 3)."""
     rate_turn, matrix = tilt.rate_turn, tilt.to_rate
     clear(rate_turn)
-    if kind != NO_TILT:
+    if kind == LINE:
+        z, q, across = tilt.phi[2], rotation[2, 0] / rotation[0, 0], w[0] + tilt.phi[2] * w[1]
+        q_by = (z, -1.0 - q * q, q * z)
+        for k in range(3):
+            turn, leaning = matrix[2, k], q_by[k]
+            rate_turn[2, k] = (2.0 * z * w[2] - q * w[1]) * turn - across * leaning
+            out[0, k] -= m[2] * leaning
+            out[1, k] -= m[2] * (q * turn + z * leaning)
+            out[2, k] += 2.0 * m[2] * z * turn
+    elif kind != NO_TILT:
         x, y = tilt.phi[0], tilt.phi[1]
         # G as a function of φ; φ turns with G ϑ.
         by_x = (2.0 * x * w[0] + y * w[1], y * w[0] + w[2])
