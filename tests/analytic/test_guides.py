@@ -231,6 +231,7 @@ def test_a_yoke_in_motion_strikes_its_pin_and_keeps_the_energy() -> None:
     [
         ({"radial": "3 mm"}, "clearance.radial.*must not exceed a tenth of width and height"),
         ({"shape": "dovetail", "height": "25 mm"}, "clearance.height.*the flanks meet 21.42 mm above"),
+        ({"radius": "9 mm"}, "clearance.radius.*there is a width and a height, and no radius"),
         ({"contact": "point-johnson"}, "contact.*touches over its surface, not at points"),
         ({"form": {"crown": "3 um"}}, "clearance.form.*a form is that of a shaft in a bore"),
         ({"shape": "dovetail", "flank_angle": "95 deg"}, "clearance.flank_angle"),

@@ -139,9 +139,9 @@ class Guide:
         return no_points("guide")
 
     def corners(self) -> tuple[FloatArray, FloatArray]:
-        """Return what displacement and rotation take off the gaps at the corners of all faces, and the gaps.
+        """Return the gaps at the corners of all faces (n,), behind their losses by displacement and rotation.
 
-        Shapes (n, 6) and (n,).
+        The losses have the shape (n, 6).
         """
         half, edges = (
             0.5 * self.length,
@@ -177,4 +177,4 @@ class Guide:
 def _crossing(first: Wall, second: Wall, gap: float, other: float) -> FloatArray:
     """Return the point at distances along the normals of two walls, shape (2,)."""
     (a, b), (c, d) = first.normal[:2], second.normal[:2]
-    return np.array([gap * d - other * b, other * a - gap * c]) / (a * d - b * c)
+    return np.asarray(np.array([gap * d - other * b, other * a - gap * c]) / (a * d - b * c))

@@ -79,7 +79,7 @@ class Slot:
         return no_points("slot")
 
     def corners(self) -> tuple[FloatArray, FloatArray]:
-        """Return what displacement and rotation take off the gaps at the ends of the pin, and the gaps."""
+        """Return the gaps at the ends of the pin, behind their losses as those of a guide."""
         half = 0.5 * self.length
         found = [[0.0, y, 0.0, 0.0, 0.0, y * x] for y in WALLS.values() for x in (-half, half)]
         return np.array(found), np.full(4, self.clearance)

@@ -79,7 +79,7 @@ class PinSlot(JointType):
     CLEARANCE: ClassVar[str] = 'ball in a bore; `shape = "cylinder"` for a pin that does not tilt in it'
 
 
-class Slot(JointType):
+class Slotted(JointType):
     """A round pin of the second body in a slot of the first."""
 
     NAME: ClassVar[str] = "slot"

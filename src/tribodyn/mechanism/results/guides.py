@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Place
@@ -29,7 +30,7 @@ SITUATIONS: Final = {
     "face": ("On one face", "two corners of one face touch, or all of it"),
     "tilted": ("On opposite faces", "corners of opposite faces touch: it is tilted as far as it goes"),
 }
-"""What a block can be in, by names, with labels; results hold their numbers."""
+"""Contacts of a block by names, with labels; results hold their numbers."""
 
 
 def guide_columns(
@@ -85,12 +86,12 @@ def _gaps(wall: Surface, drawn: FloatArray, pose: FloatArray, openings: FloatArr
     return np.asarray((drawn[ends] - near).min(axis=2) + (openings @ wall.opens)[:, None])
 
 
-def situation(touching: FloatArray, normals: FloatArray) -> FloatArray:
+def situation(touching: NDArray[np.bool_], normals: FloatArray) -> FloatArray:
     """Return the numbers of situations (n_t,) from whether ends of walls touch, (n_t, n_walls, 2)."""
     facing = normals @ normals.T < -_FACING
     crossed = np.einsum("twe,wv,tve->t", touching, facing, touching[..., ::-1]) > 0.0
-    flat = touching.all(axis=2).any(axis=1)
-    return np.where(crossed, 3.0, np.where(flat, 2.0, 1.0 * touching.any(axis=(1, 2))))
+    flat = np.all(touching, axis=2).any(axis=1)
+    return np.where(crossed, 3.0, np.where(flat, 2.0, 1.0 * np.any(touching, axis=(1, 2))))
 
 
 _FACING: Final = 1.0e-6

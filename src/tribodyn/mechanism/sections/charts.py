@@ -238,7 +238,7 @@ CLEARANCES: Final = Chart(
 
 
 def guides(dataset: xr.Dataset) -> list[Panel]:
-    """Return where the blocks of guides touch, a step for each situation, and their tilts in the play [°]."""
+    """Return the contact of blocks with their guides as steps, and their tilts in the play [°]."""
     real = np.isfinite(dataset["guide_contact"].values).any(axis=0)
     names = [name for name, wanted in zip(_names(dataset, "joint"), real, strict=True) if wanted]
     tilt = np.hypot(*(dataset[name].values[:, real] for name in ("tilt_x", "tilt_y")))

@@ -52,12 +52,13 @@ def clearances(
         if keys is None or not np.isfinite(known[number]):
             continue
         shape = SHAPES[joint.shape].of(keys, np.asarray)
-        if keys.radius is None and not isinstance(shape, Guide):
+        radius = shape.radius if isinstance(shape, Guide) else keys.radius
+        if radius is None:
             continue
         to_global = _axes(case, joint, drawn, orientation)
         offset, tilt = shafts.at(number, times), _tilt(dataset, number, times)
         tilt = 0.0 * offset if isinstance(shape, Slot) else tilt
-        walls = _walls(shape, keys.through, MM * offset[:, 2]) if isinstance(shape, FlatWalls) else {}
+        walls = _walls(shape, MM * offset[:, 2]) if isinstance(shape, FlatWalls) else {}
         if walls:
             walls |= {"slid": packed(MM * offset[:, 2]), "aside": packed(to_global[:, :, 0])}
         if joint.kind.COORDINATES:
@@ -65,7 +66,7 @@ def clearances(
         if not (np.isfinite(offset).all() and np.isfinite(tilt).all()):
             continue
         found[name] = {
-            "radius": MM * (keys.radius or shape.radius),
+            "radius": MM * radius,
             "length": MM * (keys.length or 0.0),
             "radial": MM * float(known[number]),
             "offset": packed(MM * np.einsum("nij,nj->ni", to_global, offset)),
@@ -75,7 +76,7 @@ def clearances(
     return found
 
 
-def _walls(shape: FlatWalls, through: bool, way: FloatArray) -> dict[str, Any]:
+def _walls(shape: FlatWalls, way: FloatArray) -> dict[str, Any]:
     """Return the cross-sections of walls that a block or pin slides some way along, and their ends [mm].
 
     Each has its corners, and by how much a gap sets them off. A pin has half its length across its slot.
@@ -93,7 +94,7 @@ def _walls(shape: FlatWalls, through: bool, way: FloatArray) -> dict[str, Any]:
         return {"walls": sections, "across": True, "half": half, "ends": [low - 1.5 * r, high + 1.5 * r]}
     corners, ways = shape.outline()
     sections = [{"corners": (MM * corners).tolist(), "ways": ways.tolist()}]
-    if through:
+    if shape.through:
         return {"walls": sections, "half": half + max(high, -low), "ends": [-half, half]}
     return {"walls": sections, "half": half, "ends": [low - half, high + half]}
 

@@ -63,7 +63,9 @@ class SquareGuide(ClearanceShape):
     KEYS: ClassVar[type[NamedGroup]] = BlockKeys
 
     def check(self, kind: JointType, keys: Any) -> None:
-        """Refuse a play that is as large as the block."""
+        """Refuse a radius, and a play that is as large as the block."""
+        words = "between flat walls there is a width and a height, and no radius"
+        demand(keys.radius is None, "clearance.radius", words)
         words = "the clearance must not exceed a tenth of width and height"
         demand(keys.radial <= _NARROW * min(keys.width, keys.height), "clearance.radial", words)
 

@@ -46,8 +46,8 @@ function jointAt(data, { points, clearance }, frame, magnification) {
 function blockAt(at, axis, { offset, tilt, slid, aside, radius, radial, half, ends }, frame, magnification) {
   const factor = Math.min(magnification, radius / radial);
   const pin = plus(plus(at, axis, slid[Math.min(frame, slid.length - 1)]), pointNow(offset, 1, frame, 0), factor);
-  const along = unit(plus(axis, pointNow(tilt, 1, frame, 0), factor));
-  return { at, pin, axis, along, radius, half, ends, gap: factor * radial, aside: pointNow(aside, 1, frame, 0) };
+  const [along, x] = [unit(plus(axis, pointNow(tilt, 1, frame, 0), factor)), pointNow(aside, 1, frame, 0)];
+  return { at, pin, axis, along, radius, half, ends, gap: factor * radial, aside: unit(plus(x, along, -dot(along, x))) };
 }
 
 /** Add a block or a wall: its cross-section between two places along an axis, set off by a gap. */
