@@ -1,5 +1,7 @@
 """An elastic lever beside the geometrically exact beam of Exudyn, where that is installed."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -47,7 +49,7 @@ def tip_by_exudyn(force: float) -> np.ndarray:
     shear = 5.0 / 6.0 * area * MODULUS / (2.0 * (1.0 + POISSON))
     places = np.linspace(0.0, LENGTH, FINE + 1)
     nodes = [system.AddNode(items.NodeRigidBody2D(referenceCoordinates=[x, 0.0, 0.0])) for x in places]
-    for pair in zip(nodes, nodes[1:], strict=False):
+    for pair in pairwise(nodes):
         beam = items.ObjectBeamGeometricallyExact2D(
             nodeNumbers=list(pair),
             length=LENGTH / FINE,
@@ -69,7 +71,8 @@ def tip_by_exudyn(force: float) -> np.ndarray:
     settings = exudyn.SimulationSettings()
     settings.staticSolver.numberOfLoadSteps = 10
     settings.staticSolver.verboseMode = 0
-    settings.solutionSettings.writeSolutionToFile = False
+    settings.staticSolver.newton.relativeTolerance = 1e-6
+    settings.solution.file.write = False
     system.SolveStatic(settings)
     moved = np.array(system.GetNodeOutput(nodes[-1], exudyn.OutputVariableType.Coordinates))
     return np.array([LENGTH, 0.0, 0.0]) + moved
