@@ -93,3 +93,11 @@ def _is_long(path: Path) -> bool:
 
 def _doc(path: Path) -> str:
     return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+
+
+@pytest.mark.parametrize("page", ["CONTRIBUTING.md", "docs/developer/architecture.md"])
+def test_files_that_pages_for_developers_name_are_there(page: str) -> None:
+    pattern = r"`((?:src|docs|tests|tools|benchmarks|packages)/[\w./-]+\.\w+)`"
+    named = set(re.findall(pattern, (ROOT / page).read_text(encoding="utf-8")))
+    assert named
+    assert {name for name in named if not (ROOT / name).exists()} == set()
