@@ -9,9 +9,9 @@ its interval, and what would refute them.
 
 import hashlib
 import math
+import sys
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any, Final
 
@@ -19,6 +19,8 @@ import numpy as np
 
 from tribodyn.cases.units import number_in
 from tribodyn.validation.catalogue import ValidationSet, Varied, load, varied
+from tribodyn.validation.held_back import held_back
+from tribodyn.validation.prediction import Prediction
 from tribodyn.validation.sets.journal_peak_pressure import compare as peak
 from tribodyn.validation.sets.oblique_impact import compare as oblique
 from tribodyn.validation.sets.screw_drive_friction import compare as screw
@@ -35,45 +37,9 @@ _START: Final = (0.9, 1.3)
 _STOP: Final = (0.85, 1.15)
 
 
+_NUMBERS: Final = ("value", "low", "high", "null", "null_low", "null_high")
 LEVEL: Final = 0.95
 """Level of all intervals: ends of bands of inputs and half widths of data are those of 95 % intervals."""
-
-
-@dataclass(frozen=True)
-class Prediction:
-    """A number stated before its measured value is seen.
-
-    Attributes
-    ----------
-    set, name, unit
-        Validation set, what it is, and its unit.
-    value, low, high
-        Value and interval.
-    null, null_low, null_high
-        Value and interval of the null model.
-    reading
-        How the measured value is read.
-    half_width
-        Half width of that reading.
-    """
-
-    set: str
-    name: str
-    unit: str
-    value: float
-    low: float
-    high: float
-    null: float
-    null_low: float
-    null_high: float
-    reading: str
-    half_width: float
-
-    @property
-    def refuted_by(self) -> str:
-        """Measured values that refute the prediction."""
-        low, high = self.low - self.half_width, self.high + self.half_width
-        return f"a measured value below {low:.4g} or above {high:.4g} {self.unit}"
 
 
 def register() -> list[dict[str, Any]]:
@@ -98,6 +64,21 @@ def computed() -> Iterator[Prediction]:
     yield from _servos(load("servo_play"))
     yield from _rebounds(load("oblique_impact"))
     yield from _screws(load("screw_drive_friction"))
+    yield from held_back()
+
+
+def new_entries(day: str) -> Iterator[str]:
+    """Yield the entries of a day, as the register holds them, for predictions that have none of that day."""
+    there = {entry["name"] for entry in register() if str(entry["date"]) == day}
+    for one in computed():
+        if one.name in there:
+            continue
+        numbers = {key: getattr(one, key) for key in (*_NUMBERS, "half_width")}
+        lines = [f'set = "{one.set}"', f'name = "{one.name}"', f'unit = "{one.unit}"', f"date = {day}"]
+        lines += [f'hash = "{fingerprint(load(one.set))}"']
+        lines += [f"{key} = {numbers[key]:.5g}" for key in _NUMBERS]
+        lines += [f"level = {LEVEL}", f'reading = "{one.reading}"', f"half_width = {one.half_width:.5g}"]
+        yield "\n".join(["", "[[prediction]]", *lines, f'refuted_by = "{one.refuted_by}"', ""])
 
 
 def _peak_pressures(one: ValidationSet) -> Iterator[Prediction]:
@@ -217,3 +198,7 @@ def _at_rest(one: ValidationSet, drive: str, name: str, sign: float) -> float:
     """Return the torque of a fitted law at the least speed of a direction [mN m]."""
     law, _ = screw.LAWS[name]
     return abs(float(law(screw.fitted(one, drive, name).named, np.array([sign * 1e-9]))[0]))
+
+
+if __name__ == "__main__":
+    sys.stdout.writelines(new_entries(sys.argv[1]))

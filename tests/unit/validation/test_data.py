@@ -2,11 +2,14 @@
 
 import hashlib
 import re
+import tomllib
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
+from tribodyn.cli.main import main
+from tribodyn.validation import catalogue
 from tribodyn.validation.catalogue import NAMES, ValidationSet, index, load
 
 FOLDER = Path(str(files("tribodyn.validation")))
@@ -87,3 +90,31 @@ def test_a_changed_band_is_noticed() -> None:
     changed = ValidationSet("oblique_impact").bands["sliding"]
     assert 0.02 in _numbers(changed.source)
     assert 0.03 not in _numbers(changed.source)
+
+
+def test_data_under_another_licence_lie_outside_the_package_with_licence_and_names() -> None:
+    outside = [name for name in NAMES if "licence" in load(name).table]
+    assert outside == ["friction_damper_backlash", "cycloid_reducer_play"]
+    for name in outside:
+        one = load(name)
+        assert not list((FOLDER / "sets" / name).glob("*.csv"))
+        assert not Path(str(one.data)).is_relative_to(FOLDER.parent)
+        licence = (Path(str(one.data)).parent / "LICENSE.md").read_text(encoding="utf-8")
+        assert f"`{name}`" in licence
+        assert "creativecommons.org/licenses/by-sa/4.0" in licence
+        assert one.missing == ""
+    targets = tomllib.loads((FOLDER.parents[2] / "pyproject.toml").read_text(encoding="utf-8"))["tool"][
+        "hatch"
+    ]
+    assert targets["build"]["targets"]["wheel"]["packages"] == ["src/tribodyn"]
+    assert "data" not in targets["build"]["targets"]["sdist"]["include"]
+
+
+def test_without_these_data_validate_says_so_and_goes_on(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(catalogue, "OUTSIDE", tmp_path / "none")
+    assert main(["validate", "rack_pinion_friction", "cycloid_reducer_play"]) == 0
+    out = capsys.readouterr().out
+    assert "cycloid_reducer_play: its data, under cc-by-sa-4.0, are in the repository" in out
+    assert "rack_pinion_friction: Friction force" in out

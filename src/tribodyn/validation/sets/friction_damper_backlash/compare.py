@@ -161,7 +161,7 @@ def fitted(one: ValidationSet, file: str) -> dict[str, float]:
 
 def compare(one: ValidationSet) -> Outcome:
     """Return energies, travels and the error of the earthquake."""
-    rows = [*_july(one), *_april(one), *_earthquake(one)]
+    rows = [*_july(one), *_april(one), *earthquake_rows(one)]
     return Outcome(tuple(rows), _plot(one))
 
 
@@ -217,7 +217,7 @@ def _april(one: ValidationSet) -> list[Comparison]:
     return rows
 
 
-def _earthquake(one: ValidationSet) -> list[Comparison]:
+def earthquake_rows(one: ValidationSet) -> list[Comparison]:
     """Return the error of the force over that without play, and the energy."""
     record, given = earthquake(one), fitted(one, STRONG)
     trials = [computed(given, record, start=start, cyclic=False) for start in STARTS]
