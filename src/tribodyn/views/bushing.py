@@ -19,6 +19,8 @@ _BETWEEN: Final = tuple(float(cut) for cut in range(0, 360, 15) if cut not in CU
 _BORDERS: Final = (30.0, 15.0, 5.0)
 """Widths of free borders on both sides of a cut [deg], the best first."""
 
+_GAP: Final = 0.6 * np.pi
+"""Angle without a node from which a surface is not all around [rad]."""
 WALL: Final = "angle from +X towards +Y [°]"
 """Label of an axis with the angles of :func:`wall_angles`."""
 _MOST_STEPS: Final = 3
@@ -92,8 +94,14 @@ def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray
     Returns
     -------
     tuple of arrays
-        Shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes again at the end.
+        Shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes again at the end. Of a surface
+        that is not all around, as a wall, angles begin behind its gap, and no point comes again.
     """
+    gaps = np.diff(np.sort(theta), append=theta.min() + 2.0 * np.pi)
+    if theta.size > 2 and gaps.max() > _GAP:
+        order = np.roll(np.argsort(theta), -1 - int(np.argmax(gaps)))
+        first = float(theta[order[0]])
+        return np.rad2deg(first + (theta[order] - first) % (2.0 * np.pi)), field[order]
     # Rounded, so that an angle that is the cut does not lie a whole turn behind it.
     around = np.round(np.rad2deg(theta) - cut, 9) % 360.0
     order = np.argsort(around)
@@ -181,7 +189,7 @@ class Unrolled:
 
     @property
     def angle(self) -> FloatArray:
-        """Angles from the cut once around [°], shape (n_theta + 1,)."""
+        """Angles from the cut once around [°], shape (n_theta + 1,); of a wall from edge to edge."""
         return rolled(self.theta, self.theta, self.cut)[0]
 
     def turned(self, field: FloatArray) -> FloatArray:

@@ -175,7 +175,7 @@ def test_a_flat_mechanism_is_seen_across_its_plane(flat: int) -> None:
 def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) -> None:
     family = FIGURES[name]
     if not family.drawable(RESULT):
-        assert name in ("wear_history", "modes", "mode_shapes")
+        assert name in ("wear_history", "modes", "mode_shapes", "guides")
         return
     assert family.draw(RESULT).axes
     assert family.draw(RESULT.isel(time=slice(0, 0), frame=slice(0, 0))).axes
@@ -186,7 +186,7 @@ def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) 
 )
 def test_every_section_has_data_where_the_result_has(section) -> None:
     whole = section.payload(RESULT)
-    assert (whole is None) == (section.name in ("wear-history", "modes"))
+    assert (whole is None) == (section.name in ("wear-history", "modes", "guides"))
     empty = section.payload(RESULT.isel(time=slice(0, 0), frame=slice(0, 0)))
     assert empty is None or section.name == "wear"
 

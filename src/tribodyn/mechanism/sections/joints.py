@@ -27,10 +27,6 @@ MOST: Final = 8
 _AXES: Final = "xyz"
 _LINE: Final = 1.0e-3
 """Range of a force across its line, over its size, up to which it keeps its direction."""
-_NEXT: Final = 1.5
-"""Widths of a gap between nodes above which a surface ends there."""
-_EDGE: Final = 1.0e-3
-"""Angle beside a wall at which nothing of it is drawn [rad]."""
 LAID_FLAT: Final = (
     "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
     "or arc of a ball."
@@ -247,15 +243,6 @@ def laid_flat(place: FloatArray, theta: FloatArray, fields: FloatArray) -> Unrol
     return Unrolled(theta, place * 1e3 - middle, best_cut(theta, shares(fields)), 0.0, middle)
 
 
-def _alone(theta: FloatArray, field: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return angles and a field (n, n_rows, n_theta), zero beside a surface that is not all around."""
-    step = float(np.max(np.diff(theta), initial=0.0))
-    if theta[-1] - theta[0] + _NEXT * step > 2.0 * np.pi:
-        return theta, field
-    beside = np.concatenate([[theta[0] - _EDGE], theta, [theta[-1] + _EDGE]])
-    return beside, np.pad(field, ((0, 0), (0, 0), (1, 1)))
-
-
 def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, FloatArray, FloatArray]]:
     """Yield name, places of rows [m], angles [rad] and a field, shape (n, n_theta, n_rows), of the surfaces.
 
@@ -278,8 +265,8 @@ def surfaces(dataset: xr.Dataset, name: str) -> Iterator[tuple[str, FloatArray, 
         place, theta = dataset["row_place"].values[k], dataset["column_angle"].values[k]
         rows, columns = np.append(True, np.diff(place) > 0.0), np.append(True, np.diff(theta) > 0.0)
         if np.count_nonzero(rows) > 1:
-            angles, own = _alone(theta[columns], field[:, rows][:, :, columns])
-            yield str(surface), place[rows], angles, own.transpose(0, 2, 1)
+            own = field[:, rows][:, :, columns]
+            yield str(surface), place[rows], theta[columns], own.transpose(0, 2, 1)
 
 
 HODOGRAPHS: Final = Section(
