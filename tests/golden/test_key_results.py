@@ -74,7 +74,7 @@ def _numbers(result: xr.Dataset) -> dict[str, float]:
     return {
         key: value
         for key, value in summary.items()
-        if not isinstance(value, str | list) and groups[key] not in OF_THE_MACHINE
+        if not isinstance(value, str | list | dict) and groups[key] not in OF_THE_MACHINE
     }
 
 

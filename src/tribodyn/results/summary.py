@@ -81,14 +81,14 @@ class KeyResult:
 
 
 Interval: TypeAlias = tuple[float, float]
-Summary: TypeAlias = dict[str, float | int | str | list[str] | dict[str, Interval]]
+Summary: TypeAlias = dict[str, float | int | str | list[str] | dict[str, list[float]]]
 """Key results and texts of a run, as in ``summary.json``."""
 
 
 class _Numbers(Summary):
     """Key results by name; earlier names find those of today."""
 
-    def __missing__(self, name: str) -> float | int | str | list[str] | dict[str, Interval]:
+    def __missing__(self, name: str) -> float | int | str | list[str] | dict[str, list[float]]:
         """Return the key result that had another name earlier."""
         if (now := name_today(name)) == name:
             raise KeyError(name)
@@ -207,7 +207,7 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
     scatter = {joint: (low, largest[joint]) for joint, low in least.items()}
     summary["assumed"] = _assumed(dataset, there)
     summary["intervals"] = {
-        name: (ends[0] * float(number), ends[1] * float(number))
+        name: [end * float(number) for end in ends]
         for name, one in there.items()
         if isinstance(number := summary[name], float)
         and (ends := wear_interval(name, one.part, scatter)) is not None

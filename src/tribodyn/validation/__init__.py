@@ -1,7 +1,7 @@
 """Comparison with measured data: one folder a set in ``sets``, listed once in ``catalogue.NAMES``.
 
 A set holds its data, a README with source and licence, ``set.toml`` with inputs and acceptance bands, each
-with the line of the source that gives it, and ``compare.py``, which computes what was measured. Nothing is
+with the line of the source that gives it, and a module that computes what was measured. Nothing is
 downloaded.
 """
 

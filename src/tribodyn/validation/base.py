@@ -6,6 +6,11 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
+from tribodyn.core.arrays import FloatArray
+
 
 class Verdict(StrEnum):
     """Verdict on one compared number."""
@@ -146,7 +151,7 @@ class Comparison:
         if self.measured is None or not any((*self.sides, self.u_measured)):
             return None
         difference = abs(self.computed - self.measured)
-        width = math.hypot(self.sides[self.measured > self.computed], self.u_measured)
+        width = math.hypot(self.sides[int(self.measured > self.computed)], self.u_measured)
         if width == 0.0:
             return math.inf if difference else 0.0
         return difference / width
@@ -167,6 +172,9 @@ class Comparison:
         return Verdict.WITHIN if self.band.accepts(low, high, self.measured) else Verdict.OUTSIDE
 
 
+Values: TypeAlias = Sequence[float] | NDArray[np.floating]
+
+
 @dataclass(frozen=True)
 class Curve:
     """A curve or points of a plot.
@@ -183,9 +191,14 @@ class Curve:
 
     label: str
     kind: Literal["measured", "computed", "null"]
-    x: Sequence[float]
-    y: Sequence[float]
-    half_width: Sequence[float] | None = None
+    x: Values
+    y: Values
+    half_width: Values | None = None
+
+
+def rms(values: FloatArray) -> float:
+    """Return the root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
 
 
 @dataclass(frozen=True)

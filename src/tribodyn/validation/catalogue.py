@@ -6,10 +6,10 @@ import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.resources import files
+from importlib.resources import as_file, files
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, Final, cast
+from typing import TYPE_CHECKING, Any, Final, cast
 
 import numpy as np
 
@@ -17,7 +17,11 @@ from tribodyn.cases.units import from_si, si_unit, to_si, unit_of
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
+from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.validation.base import Band, Kind, Outcome, Sides
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 NAMES: Final = (
     "servo_friction_models",
@@ -142,13 +146,37 @@ class ValidationSet:
         text = (self.data / file).read_text(encoding="utf-8")
         return list(csv.DictReader(text.splitlines()))
 
+    def columns(
+        self, file: str, *names: str, where: tuple[str, str] | None = None, every: int = 1
+    ) -> list[FloatArray]:
+        """Return columns of numbers of a CSV file of the set.
+
+        Parameters
+        ----------
+        file, names
+            The file and the names of the columns.
+        where
+            Name of another column and the text that it must hold.
+        every
+            Every so many of the rows is taken.
+        """
+        rows = [row for row in self.rows(file) if where is None or row[where[0]] == where[1]]
+        return [np.array([float(row[name]) for row in rows[::every]]) for name in names]
+
+    def simulated(self, file: str, changes: Mapping[str, object]) -> "xr.Dataset":
+        """Return the run of a model file of the set with changed keys."""
+        from tribodyn.simulation import simulate
+
+        with as_file(self.folder / file) as model:
+            return simulate(load_case(str(model)).replace(changes))
+
     def readme(self) -> str:
         """Return the README of the set."""
         return (self.data / "README.md").read_text(encoding="utf-8")
 
     def run(self) -> Outcome:
         """Compute the measured quantity."""
-        module = importlib.import_module(f"{__package__}.sets.{self.name}.compare")
+        module = importlib.import_module(f"{__package__}.sets.{self.name}")
         return cast("Callable[[ValidationSet], Outcome]", module.compare)(self)
 
 

@@ -2,22 +2,19 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from importlib.resources import as_file
 from typing import Final
 
 import numpy as np
 from scipy.special import stdtrit
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.simulation import simulate
 from tribodyn.validation.catalogue import ValidationSet, load, varied
 from tribodyn.validation.prediction import Prediction
-from tribodyn.validation.sets.friction_damper_backlash import compare as damper
-from tribodyn.validation.sets.hip_simulator_wear import compare as hip
-from tribodyn.validation.sets.oblique_impact import compare as oblique
-from tribodyn.validation.sets.pin_on_disc_pps import compare as pins
-from tribodyn.validation.sets.screw_drive_friction import compare as screw
+from tribodyn.validation.sets import friction_damper_backlash as damper
+from tribodyn.validation.sets import hip_simulator_wear as hip
+from tribodyn.validation.sets import oblique_impact as oblique
+from tribodyn.validation.sets import pin_on_disc_pps as pins
+from tribodyn.validation.sets import screw_drive_friction as screw
 from tribodyn.wear.scatter import of_repeats
 
 SPEEDS: Final = (20.0, 100.0)
@@ -26,6 +23,8 @@ LAW_OF: Final = {"1": "Stribeck", "2": "Stribeck", "3": "Stribeck by direction"}
 """Law of each drive."""
 PRESLIDING: Final = (1e-6, 1e-7, 1e-5)
 """Displacement at which friction of a joint breaks away: the default, a tenth and ten times of it [m]."""
+MASS: Final = 2.618e-4
+"""Of the ball [kg]."""
 _SHOT: Final = 1e-5
 """Time from the begin of a shot to its largest force [s]."""
 _GAP: Final = 2e-4
@@ -65,21 +64,16 @@ def in_a_joint(given: Mapping[str, float], angle: float, presliding: float) -> t
     """Return normal and tangential restitution [1] and spin [rad/s] of a ball that is shot against a bore."""
     incidence = math.radians(angle)
     across, along = math.cos(incidence), math.sin(incidence)
-    with as_file(ValidationSet("oblique_impact").folder / "joint.toml") as model:
-        case = load_case(str(model))
-    force = float(case.at("bodies.ball.mass")) * given["speed"] / _SHOT  # type: ignore[arg-type]
-    run = simulate(
-        case.replace(
-            {
-                "loads.shot.force.values": f"0, {force}, 0 N",
-                "loads.shot.direction": f"[{across}, 0, {along}]",
-                "joints.bore.clearance.friction_coefficient": given["friction"],
-                "contact.restitution": given["restitution"],
-                "friction.presliding": f"{presliding} m",
-                "run.duration": f"{_GAP / (given['speed'] * across) + _AFTER} s",
-            }
-        )
-    )
+    force = MASS * given["speed"] / _SHOT
+    changes = {
+        "loads.shot.force.values": f"0, {force}, 0 N",
+        "loads.shot.direction": f"[{across}, 0, {along}]",
+        "joints.bore.clearance.friction_coefficient": given["friction"],
+        "contact.restitution": given["restitution"],
+        "friction.presliding": f"{presliding} m",
+        "run.duration": f"{_GAP / (given['speed'] * across) + _AFTER} s",
+    }
+    run = ValidationSet("oblique_impact").simulated("joint.toml", changes)
     x, _, z = run["velocity"].values[-1, 0] / given["speed"]
     return abs(x) / across, z / along, abs(float(run["angular_velocity"].values[-1, 0, 1]))
 

@@ -21,10 +21,10 @@ from tribodyn.cases.units import number_in
 from tribodyn.validation.catalogue import ValidationSet, Varied, load, varied
 from tribodyn.validation.held_back import held_back
 from tribodyn.validation.prediction import Prediction
-from tribodyn.validation.sets.journal_peak_pressure import compare as peak
-from tribodyn.validation.sets.oblique_impact import compare as oblique
-from tribodyn.validation.sets.screw_drive_friction import compare as screw
-from tribodyn.validation.sets.servo_play import compare as play
+from tribodyn.validation.sets import journal_peak_pressure as peak
+from tribodyn.validation.sets import oblique_impact as oblique
+from tribodyn.validation.sets import screw_drive_friction as screw
+from tribodyn.validation.sets import servo_play as play
 
 FILE: Final = "predictions.toml"
 HELD_LOAD: Final = 450.0

@@ -36,7 +36,7 @@ from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.simulation import simulate
 from tribodyn.studies.calibration import VariedKey
 from tribodyn.studies.measured import Measured, MeasuredCurve, MeasuredNumber, read
-from tribodyn.validation.base import Band, Comparison, Curve, Kind, Outcome, Plot, Sides
+from tribodyn.validation.base import Band, Comparison, Curve, Kind, Outcome, Plot, Sides, rms
 from tribodyn.validation.catalogue import ValidationSet, sides_of
 
 LARGEST: Final = 1_000_000
@@ -141,9 +141,9 @@ class Rig(ValidationSet):
         return Comparison(
             row["quantity"],
             f"{curve.unit}, rms difference",
-            computed=_rms(values - curve.values) / curve.scale,
+            computed=rms(values - curve.values) / curve.scale,
             measured=0.0,
-            u_computed=_rms(half_widths) / curve.scale,
+            u_computed=rms(half_widths) / curve.scale,
             u_measured=_number(row, "half_width"),
             null=float(np.std(curve.values)) / curve.scale,
             band=None if band is None else _of_difference(band, float(np.ptp(curve.values)) / curve.scale),
@@ -226,10 +226,6 @@ def _is_file(text: str) -> bool:
     return text.lower().endswith(".csv")
 
 
-def _rms(values: FloatArray) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))
-
-
 def _of_difference(band: Band, size: float) -> Band:
     """Return the band of a root mean square difference from that of a row; ``size`` is the measured range."""
     if band.relative is not None:
@@ -243,8 +239,8 @@ def _plot(drawn: Sequence[tuple[MeasuredCurve, FloatArray]]) -> Plot:
     curves = []
     for curve, values in drawn:
         if curve.unit == unit:
-            times = curve.times.tolist()
-            measured, computed = (curve.values / curve.scale).tolist(), (values / curve.scale).tolist()
+            times = curve.times
+            measured, computed = (curve.values / curve.scale), (values / curve.scale)
             curves.append(Curve(f"{curve.name}, measured", "measured", times, measured))
             curves.append(Curve(f"{curve.name}, computed", "computed", times, computed))
     return Plot("time [s]", f"[{unit}]", tuple(curves))

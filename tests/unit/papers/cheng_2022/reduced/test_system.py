@@ -80,6 +80,6 @@ def test_the_largest_rows_are_the_peaks(result: xr.Dataset) -> None:
 
 def test_summary_is_flat(result: xr.Dataset) -> None:
     summary = summarise(result)
-    assert all(isinstance(value, float | int | str | list) for value in summary.values())
+    assert all(isinstance(value, float | int | str | list | dict) for value in summary.values())
     assert summary["vane_angle_error_max_deg"] > 0.0
     assert json.loads(json.dumps(summary)) == summary
