@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.figure_family import Family
-from tribodyn.figures.style import GREY, SMALL
+from tribodyn.figures.style import GREY, SMALL, legend_below
 from tribodyn.views.charts import Chart, ChartMarks, Panel
 from tribodyn.views.events import finite, impact_time, peak, reversal_times, series
 from tribodyn.views.playback import time_unit
@@ -83,8 +83,7 @@ def draw(chart: Chart, dataset: xr.Dataset, over: str = "") -> Figure:
     grid[-1, 0].set_xlabel(label, size=style.TEXT)
     if closer:
         _draw_closer(grid, panels, series(dataset, "time"), close_up(dataset, chart), scale)
-        handles, names = grid[0, 0].get_legend_handles_labels()
-        figure.legend(handles, names, loc="outside lower center", ncols=4, frameon=False, fontsize=SMALL)
+        legend_below(figure, grid[0, 0], 4)
     figure.align_ylabels()
     return figure
 

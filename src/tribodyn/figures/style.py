@@ -146,6 +146,12 @@ def legend(axes: Axes, columns: int, **options: Any) -> Legend:
     )
 
 
+def legend_below(figure: Figure, axes: Axes, columns: int) -> None:
+    """Put the frameless legend of one panel below all of them."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=SMALL)
+
+
 def legend_beside(axes: Axes) -> Legend:
     """Put a frameless legend beside axes, on the right."""
     return axes.legend(

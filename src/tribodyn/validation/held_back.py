@@ -148,7 +148,7 @@ def worn_joints() -> Iterator[Prediction]:
     """Yield the ratio of volumes of two heads; null models: no effect, and the square of the diameter."""
     one = load("hip_simulator_wear")
     pairs = [
-        (hip.cycle(_HEAD, changes=c), hip.cycle(hip.CLARKE, changes=c)) for c in ({}, *hip.ends(one).values())
+        (hip.cycle(_HEAD, changes=c), hip.cycle(hip.CLARKE, changes=c)) for c in ((), *hip.ends(one).values())
     ]
     ratios = [float(large.attrs["worn_volume"] / small.attrs["worn_volume"]) for large, small in pairs]
     precision = math.sqrt(2.0) * 0.09

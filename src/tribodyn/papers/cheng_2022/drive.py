@@ -18,6 +18,7 @@ from tribodyn.figures.style import (
     VERMILION,
     caption,
     finish,
+    legend_below,
     lines,
     sheet,
 )
@@ -108,8 +109,7 @@ def draw(dataset: xr.Dataset) -> Figure:
         _panel(axes, dataset["error"].sel(clearance=clearance), _PAPER[clearance])
         caption(axes, f"{clearance * 1e6:g} µm in each joint")
     panels[0].invert_yaxis()
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False, fontsize=SMALL)
+    legend_below(figure, panels[0], 4)
     return figure
 
 

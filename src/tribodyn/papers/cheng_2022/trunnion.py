@@ -61,8 +61,7 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
         style.finish(axes, y_label=f"force along {axis.upper()} [N]")
     for axes in panels[-1]:
         axes.set_xlabel("time [s]", size=style.TEXT)
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
+    style.legend_below(figure, panels[0, 0], 3)
     return figure
 
 
@@ -97,7 +96,7 @@ def draw_path(dataset: xr.Dataset) -> Figure:
         axes.plot(x, y, color=colour, linestyle=dash, linewidth=1.0, label=name)
     axes.set_aspect("equal")
     style.finish(axes, "X [µm]", "Y [µm]")
-    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=style.SMALL)
+    style.legend_below(figure, axes, 4)
     return figure
 
 
@@ -119,8 +118,7 @@ def draw_velocities(dataset: xr.Dataset) -> Figure:
         style.finish(axes, y_label="velocity [mm/s]")
     for axes in panels[-1]:
         axes.set_xlabel("time [s]", size=style.TEXT)
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
+    style.legend_below(figure, panels[0, 0], 3)
     return figure
 
 

@@ -110,8 +110,7 @@ def draw(dataset: xr.Dataset) -> Figure:
         style.caption(axes, f"formulation {formulation}, friction as a {friction}")
     for axes in panels[-1]:
         axes.set_xlabel("time [s]", size=style.SMALL)
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL)
+    style.legend_below(figure, panels[0, 0], 3)
     return figure
 
 

@@ -43,18 +43,11 @@ def compare(one: ValidationSet) -> Outcome:
     requested = [float(row["restitution"]) for row in heights]
     systematic = one.value("systematic")
     returned = [restitution(JUDGED, e) for e in requested]
-    judged = [
-        Comparison(
-            f"{row['ball']}, {row['release_height_cm']} cm",
-            "",
-            value,
-            e,
-            u_measured=float(np.hypot(systematic, float(row["restitution_se"]))),
-            null=e,
-            band=one.bands["restitution"],
-        )
-        for row, e, value in zip(heights, requested, returned, strict=True)
-    ]
+    judged, band = [], one.bands["restitution"]
+    for row, e, value in zip(heights, requested, returned, strict=True):
+        name, width = f"{row['ball']}, {row['release_height_cm']} cm", float(row["restitution_se"])
+        reading = float(np.hypot(systematic, width))
+        judged.append(Comparison(name, "", value, e, u_measured=reading, null=e, band=band))
     others = [_factor(one, name, requested) for name in DAMPING_FACTORS if name not in (JUDGED, "none")]
     return Outcome((*judged, *others), _plot(heights, requested, returned, systematic))
 

@@ -1,10 +1,8 @@
 """Worn volume of a ball joint in a hip simulator: what it depends on, and the interval of one joint."""
 
 import math
-from collections.abc import Mapping
 from functools import cache
 from importlib.resources import as_file
-from types import MappingProxyType
 from typing import Final
 
 import xarray as xr
@@ -20,12 +18,12 @@ MEAN: Final = 1.0e3
 CLARKE: Final = 11.0
 """Radius of the head of the set ``clarke`` [mm]."""
 SAIKKO: Final = 16.0
-_NOTHING: Final[Mapping[str, str]] = MappingProxyType({})
 _ANGLE: Final = math.radians(23.0)
 
 
 @cache
-def _run(radius: float, load: float, changes: tuple[tuple[str, str], ...]) -> xr.Dataset:
+def cycle(radius: float, load: float = MEAN, changes: tuple[tuple[str, str], ...] = ()) -> xr.Dataset:
+    """Return a cycle of the simulator with a radius of the head [mm], a mean load [N] and changed keys."""
     keys = {
         "joints.hip.clearance.radius": f"{radius} mm",
         "loads.body.force.value": f"{load} N",
@@ -35,34 +33,19 @@ def _run(radius: float, load: float, changes: tuple[tuple[str, str], ...]) -> xr
     return ValidationSet("hip_simulator_wear").simulated("simulator.toml", keys)
 
 
-def cycle(radius: float, load: float = MEAN, changes: Mapping[str, str] = _NOTHING) -> xr.Dataset:
-    """Return a cycle of the simulator.
-
-    Parameters
-    ----------
-    radius
-        Of the head [mm].
-    load
-        Mean load [N].
-    changes
-        Of other keys of the case.
-    """
-    return _run(radius, load, tuple(changes.items()))
-
-
 def load_path(one: ValidationSet, run: xr.Dataset) -> float:
     """Return the load times the path of a cycle [N m]."""
     return float(run.attrs["worn_volume"]) / one.value("rate")
 
 
-def ends(one: ValidationSet) -> dict[str, dict[str, str]]:
+def ends(one: ValidationSet) -> dict[str, tuple[tuple[str, str], ...]]:
     """Return the changes of the case at the ends of clearance and modulus, by name."""
     clearance, modulus = one.inputs["clearance"], one.inputs["modulus"]
     return {
-        "least clearance": {"joints.hip.clearance.radial": f"{clearance.low} m"},
-        "largest clearance": {"joints.hip.clearance.radial": f"{clearance.high} m"},
-        "least modulus": {"surfaces.bushing.young_modulus": f"{modulus.low} Pa"},
-        "largest modulus": {"surfaces.bushing.young_modulus": f"{modulus.high} Pa"},
+        "least clearance": (("joints.hip.clearance.radial", f"{clearance.low} m"),),
+        "largest clearance": (("joints.hip.clearance.radial", f"{clearance.high} m"),),
+        "least modulus": (("surfaces.bushing.young_modulus", f"{modulus.low} Pa"),),
+        "largest modulus": (("surfaces.bushing.young_modulus", f"{modulus.high} Pa"),),
     }
 
 
@@ -73,28 +56,14 @@ def by_hand(radius: float, load: float) -> float:
 
 def compare(one: ValidationSet) -> Outcome:
     """Return volumes over clearance and modulus, load times path, the stated interval, and depths."""
-    usual = cycle(CLARKE)
-    rows = [
-        Comparison(
-            f"worn volume at the {name}, over that in the middle",
-            "",
-            load_path(one, cycle(CLARKE, changes=changes)) / load_path(one, usual),
-            1.0,
-            null=1.0,
-            band=one.bands["volume"],
-        )
-        for name, changes in ends(one).items()
-    ]
-    rows += [*_saikko(one), _interval(one), *_depths(one)]
-    rows.append(
-        Comparison(
-            "metal on metal, wear of the first million cycles over that of a later one",
-            "",
-            1.0,
-            null=1.0,
-            note="Measured: more than 3, by the sign of two abstracts. One wear rate cannot give it.",
-        )
-    )
+    usual, rows = load_path(one, cycle(CLARKE)), []
+    for end, changes in ends(one).items():
+        name = f"worn volume at the {end}, over that in the middle"
+        ratio = load_path(one, cycle(CLARKE, changes=changes)) / usual
+        rows.append(Comparison(name, "", ratio, 1.0, null=1.0, band=one.bands["volume"]))
+    name = "metal on metal, wear of the first million cycles over that of a later one"
+    note = "Measured: more than 3, by the sign of two abstracts. One wear rate cannot give it."
+    rows += [*_saikko(one), _interval(one), *_depths(one), Comparison(name, "", 1.0, null=1.0, note=note)]
     return Outcome(tuple(rows), _plot(one))
 
 
@@ -136,7 +105,7 @@ def _depths(one: ValidationSet) -> list[Comparison]:
     """Return the depths of a million cycles at three clearances, by the volume of the set ``clarke``."""
     row = next(row for row in one.rows("wear.csv") if row["set"] == "clarke")
     volume = float(row["wear_rate"]) * 1e-9
-    changes: dict[str, dict[str, str]] = {"middle clearance": {}, **ends(one)}
+    changes = {"middle clearance": (), **ends(one)}
     rows = []
     for name in ("least clearance", "middle clearance", "largest clearance"):
         run = cycle(CLARKE, changes=changes[name])

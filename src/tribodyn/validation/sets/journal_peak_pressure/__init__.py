@@ -31,21 +31,11 @@ def compare(one: ValidationSet) -> Outcome:
     gauge = one.value("gauge") / 1e3
     rows = []
     for k, ((speed, load), row) in enumerate(zip(places, points, strict=True)):
-        judged = speed == JUDGED_SPEED
-        low, high = result.spread("viscosity")[:, k]
-        rows.append(
-            Comparison(
-                f"{speed:g} rpm, {load:g} N",
-                "kPa",
-                result.values[k],
-                float(row["peak_pressure_measured_kPa"]),
-                u_computed=result.sides_at(k),
-                u_measured=gauge,
-                null=float(row[_NULL]),
-                band=one.bands["peak_pressure"] if judged else None,
-                spread=(float(low), float(high)) if judged else None,
-            )
-        )
+        low, high = map(float, result.spread("viscosity")[:, k])
+        judged = (one.bands["peak_pressure"], (low, high)) if speed == JUDGED_SPEED else (None, None)
+        name, value = f"{speed:g} rpm, {load:g} N", float(row["peak_pressure_measured_kPa"])
+        widths = result.sides_at(k), gauge
+        rows.append(Comparison(name, "kPa", result.values[k], value, *widths, float(row[_NULL]), *judged))
     return Outcome(tuple(rows), _plot(rows, places))
 
 

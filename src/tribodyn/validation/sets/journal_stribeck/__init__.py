@@ -31,20 +31,11 @@ def compare(one: ValidationSet) -> Outcome:
     units = ("rpm", "", "", "1e-3")
     nulls = (0.5 * (SPEEDS[0] + SPEEDS[-1]), 1.0, 1.0, 1e3 * petroff(one, measured[0][0]))
     bands = (one.bands["minimum"], one.bands["fast"], one.bands["slow"], None)
-    rows = [
-        Comparison(
-            names[k],
-            units[k],
-            result.values[k],
-            measured[k][0],
-            u_computed=result.sides_at(k),
-            u_measured=measured[k][1],
-            null=nulls[k],
-            band=bands[k],
-            not_judged="" if bands[k] is None else _SEARCHED,
-        )
-        for k in range(4)
-    ]
+    rows = []
+    for k, (value, width) in enumerate(measured):
+        known, why = (names[k], units[k], result.values[k]), "" if bands[k] is None else _SEARCHED
+        sides = result.sides_at(k)
+        rows.append(Comparison(*known, value, sides, width, nulls[k], bands[k], not_judged=why))
     return Outcome(tuple(rows), _plot(one))
 
 

@@ -31,18 +31,9 @@ def compare(one: ValidationSet) -> Outcome:
         result = varied(partial(restitutions, angles, law), one.inputs.values())
         curves.append(Curve(f"{law} friction", "computed", angles, result.values))
         for k, angle in enumerate(angles):
-            rows.append(
-                Comparison(
-                    f"{law}, {angle:.1f} deg",
-                    "",
-                    result.values[k],
-                    measured[k],
-                    u_computed=result.sides_at(k),
-                    u_measured=one.value("reading"),
-                    null=null_model(one, angle),
-                    band=_band(one, law, angle),
-                )
-            )
+            name, widths = f"{law}, {angle:.1f} deg", (result.sides_at(k), one.value("reading"))
+            by_hand, band = null_model(one, angle), _band(one, law, angle)
+            rows.append(Comparison(name, "", result.values[k], measured[k], *widths, by_hand, band))
     width = [one.value("reading")] * len(angles)
     points_of = Curve("measured", "measured", angles, measured, width)
     null = Curve("momentum and Coulomb", "null", angles, [null_model(one, angle) for angle in angles])

@@ -88,39 +88,20 @@ def compare(one: ValidationSet) -> Outcome:
     rows = []
     for share, load in REPEATED:
         rates = [float(table_row(one, share, load, run)["rate_last_half_um_per_m"]) for run in ("1", "2")]
-        rows.append(
-            Comparison(
-                f"{share} % PTFE, {load}, loss of run 2 by the rate of run 1, factor",
-                "",
-                repeat_factor(one, share, load),
-                max(rates) / min(rates),
-                null=1.0,
-                band=one.bands["repeat"],
-            )
-        )
+        name = f"{share} % PTFE, {load}, loss of run 2 by the rate of run 1, factor"
+        values = repeat_factor(one, share, load), max(rates) / min(rates)
+        rows.append(Comparison(name, "", *values, null=1.0, band=one.bands["repeat"]))
     for share, load, run in CURVES:
         loss, name = measured(one, share, load, run), f"{share} % PTFE, {load}, run {run}"
         found = fitted(loss)
         line = loss.height - np.polyval(np.polyfit(loss.distance, loss.height, 1), loss.distance)
         row = table_row(one, share, load, run)
-        rows += [
-            Comparison(
-                f"{name}, two stages, root mean square error",
-                "um",
-                rms(found.residuals),
-                null=rms(line),
-                band=one.bands["two_stages"],
-            ),
-            Comparison(
-                f"{name}, later rate",
-                "um/m",
-                found.named["later_rate"],
-                float(row["rate_last_half_um_per_m"]),
-                u_computed=found.half_width("later_rate"),
-                u_measured=2.0 * float(row["rate_standard_error_um_per_m"]),
-                null=loss.rate,
-            ),
-        ]
+        error, band = rms(found.residuals), one.bands["two_stages"]
+        of_error = f"{name}, two stages, root mean square error"
+        rows.append(Comparison(of_error, "um", error, null=rms(line), band=band))
+        pair = found.named["later_rate"], float(row["rate_last_half_um_per_m"])
+        widths = found.half_width("later_rate"), 2.0 * float(row["rate_standard_error_um_per_m"])
+        rows.append(Comparison(f"{name}, later rate", "um/m", *pair, *widths, loss.rate))
     return Outcome(tuple(rows), _plot(one))
 
 

@@ -31,19 +31,11 @@ def compare(one: ValidationSet) -> Outcome:
     ratios = varied(
         lambda given: np.array([torque_ratio(given, narrow), torque_ratio(given, wide)]), one.inputs.values()
     )
-    low, high = ratios.spread("load", "liner")
-    rows = [
-        Comparison(
-            f"torque / (mu W R), {label} clearance",
-            "",
-            ratios.values[k],
-            u_computed=ratios.sides_at(k),
-            null=null,
-            band=one.bands["ratio"],
-            spread=(low[k], high[k]),
-        )
-        for k, (label, null) in enumerate((("narrow", 0.5 * np.pi), ("wide", 1.0)))
-    ]
+    rows, band = [], one.bands["ratio"]
+    for k, (label, null) in enumerate((("narrow", 0.5 * np.pi), ("wide", 1.0))):
+        name, (low, high) = f"torque / (mu W R), {label} clearance", ratios.spread("load", "liner")[:, k]
+        sides = ratios.sides_at(k)
+        rows.append(Comparison(name, "", ratios.values[k], None, sides, 0.0, null, band, (low, high)))
     quotient = float(ratios.values[0] / ratios.values[1])
     rows.append(
         Comparison(
@@ -118,15 +110,9 @@ def _impacts(order: Band) -> list[Comparison]:
         ("speed", SPEEDS, by_speed, "rpm", 2),
     ):
         for k in range(2):
-            rows.append(
-                Comparison(
-                    f"growth of the peak force with {name}, {places[k]:g} to {places[k + 1]:g} {unit}",
-                    "N",
-                    forces[k + 1] - forces[k],
-                    null=forces[k] * ((places[k + 1] / places[k]) ** power - 1.0),
-                    band=order,
-                )
-            )
+            label = f"growth of the peak force with {name}, {places[k]:g} to {places[k + 1]:g} {unit}"
+            null = forces[k] * ((places[k + 1] / places[k]) ** power - 1.0)
+            rows.append(Comparison(label, "N", forces[k + 1] - forces[k], null=null, band=order))
     return rows
 
 

@@ -87,18 +87,9 @@ def compare(one: ValidationSet) -> Outcome:
     fits = {(drive, law): fitted(one, drive, law) for drive in "123" for law in LAWS}
     rows = [_payload(one, fits["1", "Stribeck"])]
     for (drive, law), found in fits.items():
-        band = JUDGED.get((drive, law))
-        rows.append(
-            Comparison(
-                f"drive {drive}, {law}, largest difference",
-                "%",
-                _largest(found),
-                0.0,
-                u_measured=one.value(f"spread_{drive}"),
-                null=_largest(fits[drive, "Coulomb + viscous"]),
-                band=None if band is None else one.bands[band],
-            )
-        )
+        name, spread = f"drive {drive}, {law}, largest difference", one.value(f"spread_{drive}")
+        null, band = _largest(fits[drive, "Coulomb + viscous"]), one.bands.get(JUDGED.get((drive, law), ""))
+        rows.append(Comparison(name, "%", _largest(found), 0.0, 0.0, spread, null, band))
     return Outcome(tuple(rows), _plot(one, fits))
 
 

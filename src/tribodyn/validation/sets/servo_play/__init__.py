@@ -28,31 +28,15 @@ def compare(one: ValidationSet) -> Outcome:
         found = fitted(one, name)
         low, high = interval(found, "play")
         judged = name == SINGLE
-        rows.append(
-            Comparison(
-                f"{name}, play",
-                "deg",
-                found.named["play"],
-                one.bands["play"].covers[0] if judged and one.bands["play"].covers else None,
-                u_computed=0.5 * (high - low),
-                null=measured(one, name)["released"],
-                band=one.bands["play"] if judged else None,
-                spread=(low, high),
-            )
-        )
+        band = one.bands["play"] if judged else None
+        play = band.covers[0] if band is not None and band.covers else None
+        facts = 0.5 * (high - low), 0.0, measured(one, name)["released"], band, (low, high)
+        rows.append(Comparison(f"{name}, play", "deg", found.named["play"], play, *facts))
         low, high = interval(found, "compliance")
-        rows.append(
-            Comparison(
-                f"{name}, compliance",
-                "deg per N m",
-                found.named["compliance"],
-                one.value("droop") if judged else None,
-                u_computed=0.5 * (high - low),
-                null=_straight_line(one, name),
-                spread=(low, high),
-                note="The measured value is the droop of servo_gear_friction at 12 V." if judged else "",
-            )
-        )
+        note = "The measured value is the droop of servo_gear_friction at 12 V." if judged else ""
+        value, droop = found.named["compliance"], one.value("droop") if judged else None
+        facts = 0.5 * (high - low), 0.0, _straight_line(one, name), None, (low, high)
+        rows.append(Comparison(f"{name}, compliance", "deg per N m", value, droop, *facts, note=note))
     return Outcome(tuple(rows), _plot(one))
 
 

@@ -31,35 +31,15 @@ def compare(one: ValidationSet) -> Outcome:
     seized = varied(lambda given: _forces(given, given["seized_clearance"]), bores)
     worn = simulate(load_case("vsv").replace({"wear.cycles": int(one.value("wear_cycles"))}))
     ratio = _torque(worn) / _torque(simulate(load_case("vsv").replace({"run.cycles": 1})))
-    names = list(healthy.ends)
-    rows = (
-        Comparison(
-            "pull force of a healthy ring",
-            "N",
-            healthy.values[0],
-            u_computed=healthy.sides_at(0),
-            band=one.bands["healthy"],
-            spread=_ends(healthy.spread(*names)),
-        ),
-        Comparison(
-            "pull force of a seized ring",
-            "N",
-            seized.values[0],
-            u_computed=seized.sides_at(0),
-            band=one.bands["seized"],
-            spread=_ends(seized.spread(*seized.ends)),
-        ),
-        Comparison(
-            "torque of a bush, worn over new",
-            "",
-            ratio,
-            1.0,
-            null=1.0,
-            band=one.bands["torque"],
-            note=f"Depth worn: {float(worn['wear_depth'].max()) * 1e6:.2g} um.",
-        ),
-    )
-    return Outcome(rows, _plot(worn))
+    rows = []
+    for state, found in (("healthy", healthy), ("seized", seized)):
+        name, sides = f"pull force of a {state} ring", found.sides_at(0)
+        ends = _ends(found.spread(*found.ends))
+        rows.append(Comparison(name, "N", found.values[0], None, sides, band=one.bands[state], spread=ends))
+    note = f"Depth worn: {float(worn['wear_depth'].max()) * 1e6:.2g} um."
+    name = "torque of a bush, worn over new"
+    rows.append(Comparison(name, "", ratio, 1.0, null=1.0, band=one.bands["torque"], note=note))
+    return Outcome(tuple(rows), _plot(worn))
 
 
 def _ends(spread: FloatArray) -> tuple[float, float]:

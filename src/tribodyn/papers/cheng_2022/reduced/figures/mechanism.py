@@ -42,10 +42,7 @@ def draw(dataset: xr.Dataset) -> Figure:
         for moment, look in zip(_moments(angle), _LOOKS, strict=True):
             _draw_at(along, above, case, dataset, moment, look)
         _frame(along, above, case)
-        handles, labels = above.get_legend_handles_labels()
-        figure.legend(
-            handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=style.SMALL
-        )
+        style.legend_below(figure, above, 3)
     style.finish(along, "X [mm]", "Z [mm]")
     style.finish(above, "X [mm]", "Y [mm]")
     return figure
