@@ -50,12 +50,14 @@ def says(process: psutil.Process, text: str) -> bool:
     return any(text in word for word in process.cmdline())
 
 
-def finished(folder: Path) -> dict[str, int]:
-    """Return when each finished point was written, by name."""
-    return {path.parent.name: path.stat().st_mtime_ns for path in folder.glob("out/points/*/summary.json")}
+def finished(folder: Path) -> dict[str, str]:
+    """Return the line of each finished point, with the time that it took, by name."""
+    file = folder / "out" / "points.jsonl"
+    lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
+    return {json.loads(line)["point"]: line for line in lines if line.endswith("}}")}
 
 
-def assert_whole(folder: Path, before: dict[str, int]) -> None:
+def assert_whole(folder: Path, before: dict[str, str]) -> None:
     """Run the sweep again: it keeps what was there, and ends with all points."""
     again = subprocess.run(SWEEP, cwd=folder, capture_output=True, text=True, check=True)
     assert f"computing {POINTS - len(before)} of {POINTS} points" in again.stderr
@@ -141,16 +143,6 @@ def killed(process: subprocess.Popen[str], after: float) -> bool:
     return False
 
 
-def kept(folder: Path) -> dict[str, bytes]:
-    """Return the files of the points that are done, by their names."""
-    done = [path.parent for path in folder.glob("out/points/*/summary.json")]
-    return {
-        str(path): path.read_bytes()
-        for point in done
-        for path in (point / "case.toml", point / "summary.json")
-    }
-
-
 def assert_nothing_torn(folder: Path) -> None:
     """Assert that what has the name of a result is a whole one."""
     for path in folder.rglob("*.json"):
@@ -171,9 +163,9 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> tuple[xr.Dataset, f
 def goes_on(folder: Path, alone: xr.Dataset, after: float) -> bool:
     """Start a sweep or go on with it, kill it after a while, and look at what is there; False at its end."""
     folder.mkdir(exist_ok=True)
-    before = kept(folder)
+    before = finished(folder)
     goes_on = killed(started(folder), after)
-    assert before.items() <= kept(folder).items()
+    assert before.items() <= finished(folder).items()
     assert_nothing_torn(folder)
     if not goes_on:
         effort = ["wall_time_s", "real_time_factor"]

@@ -240,6 +240,11 @@ class Case(Group):
         return self._given[path].value if path in self._given else None
 
     @property
+    def written(self) -> Mapping[str, Value]:
+        """Values as given, by dotted path, where others stand for some of them; else none."""
+        return self._written
+
+    @property
     def given_paths(self) -> tuple[str, ...]:
         """Dotted paths of the keys and empty tables that were written, in a built-in case or by a user."""
         return tuple(self._given)

@@ -62,6 +62,7 @@ COMMANDS: Final = _Modules(
         "find",
         "slopes",
         "allocate",
+        "builds",
         "contributions",
         "fit",
         "workbench",

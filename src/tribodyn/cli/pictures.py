@@ -8,16 +8,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from tribodyn.cli.directory import FIGURES, REPORT
 from tribodyn.cli.interrupt import on_leaving
 
 if TYPE_CHECKING:
     import xarray as xr
-
-FEW_POINTS: Final = 24
-"""Points of a sweep up to which each gets its report without being asked: a second and 3 MB each."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -5,7 +5,7 @@ One file because the checks compare tables that the class declares.
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
 from pydantic import PrivateAttr, create_model
@@ -43,11 +43,14 @@ from tribodyn.mechanism.model.drives_and_loads import (
 )
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys, friction_of
-from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, with_copies
+from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, scatter_in, with_copies
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
 from tribodyn.mechanisms.mechanism_protocol import plain
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _PAIRS: Final = "pairs"
 _FRICTION: Final = "friction_coefficient"
@@ -270,6 +273,17 @@ class MechanismCase(_WithElements):
     def doors(self) -> Doors:
         """Return the keys for functions of the drive and of loads."""
         return doors_of(self.drives, self.loads, self.span)
+
+    def one_copy(self, together: "xr.Dataset", instants: Sequence[float]) -> Case:
+        """Return the case with one copy of its pattern, see :mod:`tribodyn.mechanism.one_copy`."""
+        from tribodyn.mechanism.one_copy import one_copy
+
+        return one_copy(self, together, instants)
+
+    @property
+    def scattered(self) -> Mapping[str, ScatterKeys]:
+        """Distributions and lists of what differs from copy to copy; :attr:`scatter` has none once drawn."""
+        return scatter_in(self.written)
 
     @property
     def functions(self) -> Mapping[str, OwnFunction]:

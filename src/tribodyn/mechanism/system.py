@@ -37,6 +37,7 @@ from tribodyn.mechanism.model.reversals import Reversals
 from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
+from tribodyn.mechanism.results.copies import why
 from tribodyn.mechanism.results.followed import (
     coordinate,
     followed,
@@ -360,6 +361,7 @@ class MechanismSystem:
                 *temperature_effects.of_temperatures(self.model),
                 *(contacts.notes(peaks, of_contacts) if peaks else []),
                 *notes_of_outputs,
+                *(why(self.case, run.solution.t, of_outputs["output_error"]) if of_outputs else ()),
                 *self._reversals.notes(float(run.solution.t_end), carried=run.carried),
             ],
             failure=self._failure(run),

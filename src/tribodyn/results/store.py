@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 RESULT: Final = "result.nc"
 POINTS: Final = "points"
-"""Folder of a sweep that holds one folder for each point."""
+"""Folder of a sweep that holds one folder for each point whose whole result is kept."""
+FEW_POINTS: Final = 24
+"""Points of a sweep up to which each keeps its result and gets its report without being asked: 3 MB each."""
 SUMMARY: Final = "summary.json"
 CASE: Final = "case.toml"
 LARGEST: Final = 4_000_000_000

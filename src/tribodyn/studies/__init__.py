@@ -1,6 +1,7 @@
 """Studies: one case at many values of its parameters, on processes of this machine or on a cluster."""
 
 from tribodyn.studies.allocation import Allocation, allocate
+from tribodyn.studies.builds import Builds, builds
 from tribodyn.studies.cluster import Tls
 from tribodyn.studies.contributions import OutputShares, contributions
 from tribodyn.studies.differences import Slope, slopes
@@ -15,6 +16,7 @@ __all__ = [
     "SAMPLERS",
     "Allocation",
     "Arrival",
+    "Builds",
     "Means",
     "OutputShares",
     "Sampling",
@@ -23,6 +25,7 @@ __all__ = [
     "Tls",
     "Watcher",
     "allocate",
+    "builds",
     "contributions",
     "find",
     "make_plan",

@@ -16,9 +16,11 @@ from typing import Final
 import numpy as np
 
 from tribodyn.cases import Case, Key
+from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.results.atomic import write_text
 from tribodyn.studies.choices import Choice, QuadraticModel, Scattering, are_kept
 from tribodyn.studies.differences import DIGITS, numbers_of
 from tribodyn.studies.plan import Axis, plan_of
@@ -30,6 +32,8 @@ from tribodyn.studies.tolerances import Tolerance, read_tolerances
 
 FRONT: Final = (0.9, 0.95, 0.99, 0.997, 0.999)
 """Probabilities for which the least cost is given beside the one asked for."""
+CHOSEN: Final = "chosen.toml"
+"""Case file of the choice."""
 _ROUNDS: Final = 3
 """Times that the quadratics are made, with all that has been simulated."""
 
@@ -133,9 +137,20 @@ def allocate(
         error = math.sqrt(best.probability * (1.0 - best.probability) / samples)
         if abs(share.within / share.points - best.probability) <= 2.0 * error:
             break
+    if directory is not None:
+        write_text(Path(directory) / CHOSEN, _as_case(chosen, tolerances, best))
     front = tuple((each, one) for each in FRONT if (one := model.known(each)) is not None)
     parts = model.contributions(best.widths)
     return Allocation(asked, tolerances, best, share, parts, front, model.missed, len(runs.numbers))
+
+
+def _as_case(case: Case, tolerances: tuple[Tolerance, ...], choice: Choice) -> str:
+    """Return the case file of a choice: its tolerances in comments, then the case."""
+    lines = (
+        f"# {one.name}: {label}; {one.key.path} scatters over {from_si(width * abs(one.share), one.key.unit)}"
+        for one, label, width in zip(tolerances, choice.labels, choice.widths, strict=True)
+    )
+    return "\n".join([*lines, case.to_toml()])
 
 
 class _Runs:

@@ -1,15 +1,17 @@
-"""The points of a sweep on disk, each in a folder named by its hash, and merged to one dataset.
+"""The points of a sweep on disk, named by their hashes, and merged to one dataset.
 
-``summary.json`` is written last, and it is the mark of a point that is done.
+Key results of a point are a line of ``points.jsonl``. A point that keeps its whole result has a folder
+instead, in which ``summary.json`` is written last, the mark of a point that is done.
 """
 
 import json
 import math
+import os
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TextIO
 
 import numpy as np
 import xarray as xr
@@ -24,13 +26,16 @@ from tribodyn.mechanisms.results import known
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.dataset import SWEEP, assembled, variable
 from tribodyn.results.schema import is_summary
-from tribodyn.results.store import CASE, POINTS, RESULT, SUMMARY
+from tribodyn.results.store import CASE, POINTS, RESULT, SUMMARY, summary_text
 from tribodyn.results.summary import Summary
 from tribodyn.results.variables import POINT_TEXTS
 from tribodyn.studies.plan import POINT, Point, SweepPlan
 from tribodyn.studies.work import PointOutcome
 
 _LARGEST_SUMMARY: Final = 1_000_000
+_LARGEST_FILE: Final = 2_000_000_000
+LINES: Final = "points.jsonl"
+"""File with a line of JSON for each point: its name and its key results."""
 
 
 class Archive:
@@ -39,7 +44,9 @@ class Archive:
     Parameters
     ----------
     directory
-        Folder of the sweep; ``points/`` in it is made when there is a point to compute.
+        Folder of the sweep; ``points/`` in it is made when there is a point whose whole result is kept.
+    whole
+        Whether each point keeps its whole result, in a folder of its own.
 
     Raises
     ------
@@ -47,30 +54,50 @@ class Archive:
         Something else has the name of that folder.
     """
 
-    def __init__(self, directory: Path) -> None:
-        self.folder = directory / POINTS
+    def __init__(self, directory: Path, *, whole: bool) -> None:
+        self.folder, self._file, self._whole = directory / POINTS, directory / LINES, whole
         self.staging = self.folder.absolute() / secrets.token_hex(4)
         """Path beside which workers of this machine leave whole results, under names of this sweep."""
+        self._lines: TextIO | None = None
         if self.folder.exists() and not self.folder.is_dir():
             raise InputError(f"{brief(self.folder)} is a file; choose another directory", key="--output")
+        self._kept = {} if whole else dict(self._read())
 
-    def find(self, point: Point, *, whole: bool) -> Summary | None:
-        """Return the summary of a point that is done, with its whole result if asked, else None.
+    def _read(self) -> Iterator[tuple[str, Summary]]:
+        """Yield names and summaries of the lines that are whole, the latest of a point last."""
+        try:
+            lines = read_regular(self._file, _LARGEST_FILE).splitlines()
+        except OSError:
+            return
+        for line in lines:
+            with suppress(ValueError, RecursionError, TypeError, KeyError):
+                found = json.loads(line)
+                if isinstance(found["point"], str) and is_summary(found["summary"]):
+                    yield found["point"], found["summary"]
+
+    def find(self, point: Point) -> Summary | None:
+        """Return the summary of a point that is done, with its whole result if that is kept, else None.
 
         A point that failed may have no result.
         """
+        if point.name in self._kept:
+            return self._kept[point.name]
         try:
             content = json.loads(read_regular(self.folder / point.name / SUMMARY, _LARGEST_SUMMARY))
         except (OSError, ValueError, RecursionError):
             return None
         if not is_summary(content):
             return None
-        missing = whole and not content.get("failure") and not (self.folder / point.name / RESULT).is_file()
-        return None if missing else content
+        result = self.folder / point.name / RESULT
+        return None if self._whole and not content.get("failure") and not result.is_file() else content
 
     @contextmanager
     def open(self) -> Iterator[None]:
-        """Have the folder while the block runs; in the end remove what nobody kept, and it too if empty."""
+        """Have the storage while the block runs; in the end what nobody kept goes."""
+        if not self._whole:
+            with self._appending():
+                yield
+            return
         self.folder.mkdir(parents=True, exist_ok=True)
         remove_stale_parts(self.folder)
         try:
@@ -81,8 +108,23 @@ class Archive:
             with suppress(OSError):
                 self.folder.rmdir()
 
+    @contextmanager
+    def _appending(self) -> Iterator[None]:
+        """Open the file of lines, without what was written in part; a link in its place is replaced."""
+        write_text(self._file, "".join(_line(name, summary) for name, summary in self._kept.items()))
+        with self._file.open("a", encoding="utf-8") as self._lines:
+            try:
+                yield
+            finally:
+                self._lines.flush()
+                os.fsync(self._lines.fileno())
+
     def keep(self, point: Point, outcome: PointOutcome) -> None:
         """Write a point, each file whole or not at all."""
+        if self._lines is not None:
+            self._lines.write(_line(point.name, outcome.summary))
+            self._lines.flush()
+            return
         folder = self.folder / point.name
         folder.mkdir(parents=True, exist_ok=True)
         for part in folder.glob(".*.part"):
@@ -92,8 +134,11 @@ class Archive:
             adopt(Path(outcome.staged), folder / RESULT)
         elif outcome.result:
             write_bytes(folder / RESULT, outcome.result)
-        text = json.dumps(outcome.summary, indent=2, ensure_ascii=False, allow_nan=False)
-        write_text(folder / SUMMARY, text + "\n")
+        write_text(folder / SUMMARY, summary_text(outcome.summary))
+
+
+def _line(name: str, summary: Summary) -> str:
+    return json.dumps({"point": name, "summary": summary}, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 NOT_COMPUTED: Final = "not computed: the sweep was stopped before"

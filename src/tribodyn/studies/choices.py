@@ -109,7 +109,7 @@ class QuadraticModel:
         self, scattering: Scattering, limits: tuple[Limit, ...], deviations: FloatArray, numbers: FloatArray
     ) -> None:
         self._scattering, self._limits, self._span = scattering, limits, scattering.span
-        terms = _quadratic(deviations / self._span)
+        terms = quadratic(deviations / self._span)
         self._factors, *_ = np.linalg.lstsq(terms, numbers, rcond=None)
         hat = np.einsum("ij,ji->i", terms, np.linalg.pinv(terms))
         left_out = (numbers - terms @ self._factors) / (1.0 - np.minimum(hat, 0.999))[:, np.newaxis]
@@ -155,7 +155,7 @@ class QuadraticModel:
 
     def _smooth(self, scatter: FloatArray, widths: Sequence[float]) -> FloatArray:
         deviations = self._scattering.deviations(scatter, widths)
-        return np.asarray(_quadratic(deviations / self._span) @ self._factors)
+        return np.asarray(quadratic(deviations / self._span) @ self._factors)
 
     def _numbers(self, widths: Sequence[float]) -> FloatArray:
         """Return the numbers at the samples, shape (n_drawn, n_limits)."""
@@ -256,7 +256,7 @@ def _or_one(numbers: FloatArray) -> FloatArray:
     return np.where(numbers > 0.0, numbers, 1.0)
 
 
-def _quadratic(x: FloatArray) -> FloatArray:
+def quadratic(x: FloatArray) -> FloatArray:
     """Return the terms of a quadratic at points of shape (n, n_variables), shape (n, n_terms)."""
     pairs = itertools.combinations_with_replacement(x.T, 2)
     return np.column_stack([np.ones(len(x)), x, *(a * b for a, b in pairs)])

@@ -7,7 +7,7 @@ import logging
 import queue
 import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.versions import version
 from tribodyn.studies.plan import Point
-from tribodyn.studies.work import LISTEN, Finished, PointOutcome, SweepJob, compute, failed
+from tribodyn.studies.work import LISTEN, Finished, PointOutcome, SweepJob, blocks_of, compute, failed
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Security
@@ -131,12 +131,13 @@ def _quiet() -> Iterator[None]:
 def _computed(client: Client, job: SweepJob) -> Finished:
     """Yield points as they finish; what is still to be done when the job stops is called off."""
     run, own = uuid.uuid4().hex[:8], version("tribodyn")
-    waiting: dict[str, tuple[Point, Future[Any]]] = {}
+    waiting: dict[str, tuple[Sequence[Point], Future[Any]]] = {}
     done: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-    for point in job.points:
-        key = f"{point.name}-{run}"
-        future = client.submit(compute, point.toml, own, job.keep_result, key=key, pure=False)
-        waiting[key] = (point, future)
+    for block in blocks_of(job.case, job.points, max(sum(client.nthreads().values()), 1)):
+        key = f"{block[0].name}-{run}"
+        changes = [point.changes for point in block]
+        future = client.submit(compute, job.case, changes, own, job.keep_result, key=key, pure=False)
+        waiting[key] = (block, future)
         future.add_done_callback(done.put)
     try:
         yield from _arriving(client, waiting, done, job.stop)
@@ -147,7 +148,7 @@ def _computed(client: Client, job: SweepJob) -> Finished:
 
 def _arriving(
     client: Client,
-    waiting: dict[str, tuple[Point, Future[Any]]],
+    waiting: dict[str, tuple[Sequence[Point], Future[Any]]],
     done: queue.SimpleQueue[Future[Any]],
     stop: Callable[[], bool],
 ) -> Finished:
@@ -160,8 +161,8 @@ def _arriving(
             continue
         if future.cancelled():
             raise TribodynError(_GONE)
-        point, _ = waiting.pop(str(future.key))
-        yield point, _outcome(future)
+        block, _ = waiting.pop(str(future.key))
+        yield from zip(block, _outcomes(future, len(block)), strict=True)
         # Frees the worker's memory.
         future.release()
 
@@ -175,15 +176,13 @@ def _demand_connection(client: Client, heard: float) -> float:
     return heard
 
 
-def _outcome(future: Future[Any]) -> PointOutcome:
-    """Return the outcome of a point; reports of Dask are not about the point itself and not final."""
+def _outcomes(future: Future[Any], n: int) -> list[PointOutcome]:
+    """Return the outcomes of points; reports of Dask are not about the points themselves and not final."""
     from distributed import KilledWorker
 
     try:
-        outcome = future.result()
+        return list(future.result())
     except KilledWorker:
-        return failed("its worker process died at every attempt", final=False)
+        return n * [failed("its worker process died at every attempt", final=False)]
     except Exception as error:
-        return failed(f"the worker could not compute it: {type(error).__name__}: {error}", final=False)
-    assert isinstance(outcome, PointOutcome)
-    return outcome
+        return n * [failed(f"the worker could not compute it: {type(error).__name__}: {error}", final=False)]

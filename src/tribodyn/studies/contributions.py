@@ -121,7 +121,7 @@ def contributions(
     switches = real_joints(chosen)
     plan, joints = _plan(chosen, switches), tuple(switches)
     folder = Path(directory)
-    found = run(plan, folder, Means(workers=workers), watcher)
+    found = run(plan, folder, Means(workers=workers, keep_results=True), watcher)
     refuse_failures(found)
     whole, *alone = (read(folder / POINTS / point.name) for point in plan.points)
     ideal = _kinematic(chosen)

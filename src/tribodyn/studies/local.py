@@ -17,6 +17,7 @@ from tribodyn.studies.work import (
     LISTEN,
     Finished,
     SweepJob,
+    blocks_of,
     compute,
     failed,
     import_what_points_need,
@@ -50,15 +51,24 @@ def local(job: SweepJob, workers: int | None) -> Finished:
     """
     size = _affordable(min(workers or platforms.processors(), len(job.points)), job.note)
     fork_server.start(toml=job.points[0].toml)
-    own = version("tribodyn")
+
+    def task_of(block: Sequence[Point]) -> Task:
+        changes = [point.changes for point in block]
+        return Task(compute, (job.case, changes, version("tribodyn"), job.keep_result, job.staging), block)
+
     with started(size) as workforce:
         _prepare(workforce[0], job)
-        tasks = [
-            Task(compute, (point.toml, own, job.keep_result, job.staging), point) for point in job.points
-        ]
-        for task, outcome in answers(workforce, tasks, job.stop):
-            assert task.point is not None
-            yield task.point, outcome
+        lost: list[Point] = []
+        for task, outcomes in answers(
+            workforce, map(task_of, blocks_of(job.case, job.points, size)), job.stop
+        ):
+            if outcomes is LOST and len(task.points) > 1:
+                lost += task.points
+            else:
+                yield from zip(task.points, [LOST] if outcomes is LOST else outcomes, strict=True)
+        # One of a block may have killed the worker of all.
+        for task, outcomes in answers(workforce, [task_of([point]) for point in lost], job.stop):
+            yield task.points[0], LOST if outcomes is LOST else outcomes[0]
 
 
 def _affordable(workers: int, note: Callable[[str], None]) -> int:
@@ -82,7 +92,7 @@ class Task:
 
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
-    point: Point | None = None
+    points: Sequence[Point] = ()
     deaths: int = 0
 
 

@@ -19,7 +19,7 @@ from tribodyn.core.versions import version
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
-from tribodyn.results.store import prepare_directory
+from tribodyn.results.store import FEW_POINTS, prepare_directory
 from tribodyn.results.summary import Summary
 from tribodyn.simulation import estimate
 from tribodyn.simulation.costs import MOST_MEMORY, MOST_TIME, PROGRAM, in_bytes, in_time
@@ -113,7 +113,8 @@ class Means:
     fresh
         Whether all points are.
     keep_results
-        Whether each point keeps its whole result beside its key results.
+        Whether each point keeps its whole result beside its key results; by default those of a sweep of a few
+        points do, see :data:`~tribodyn.results.store.FEW_POINTS`.
     """
 
     workers: int | None = None
@@ -121,7 +122,7 @@ class Means:
     tls: Tls | None = None
     retry: bool = False
     fresh: bool = False
-    keep_results: bool = True
+    keep_results: bool | None = None
 
 
 def _nothing(_: object) -> None:
@@ -245,10 +246,9 @@ def run(
         raise InputError(f"given {means.workers}; allowed: 0 or more", key="--workers")
     if means.tls is not None and means.scheduler is None:
         raise InputError("certificates are for a scheduler; give its address too", key="--scheduler")
-    archive = None if directory is None else Archive(prepare_directory(directory))
-    summaries = _kept(plan, archive, means)
+    summaries: dict[str, Summary] = {}
     try:
-        _compute(plan, archive, means, summaries, watcher)
+        compute_missing(plan, directory, means, watcher, summaries)
     except InputError:
         raise
     except TribodynError:
@@ -261,7 +261,7 @@ def _kept(plan: SweepPlan, archive: Archive | None, means: Means) -> dict[str, S
     """Return the summaries of the points that need not be computed again."""
     if archive is None or means.fresh:
         return {}
-    found = {point.name: archive.find(point, whole=means.keep_results) for point in plan.points}
+    found = {point.name: archive.find(point) for point in plan.points}
     return {
         name: summary
         for name, summary in found.items()
@@ -269,18 +269,29 @@ def _kept(plan: SweepPlan, archive: Archive | None, means: Means) -> dict[str, S
     }
 
 
-def _compute(
-    plan: SweepPlan, archive: Archive | None, means: Means, summaries: dict[str, Summary], watcher: Watcher
+def compute_missing(
+    plan: SweepPlan, directory: Path | None, means: Means, watcher: Watcher, summaries: dict[str, Summary]
 ) -> None:
-    """Compute the missing points, keep each when it arrives, and add their summaries."""
+    """Compute the missing points of a plan, keep each when it arrives, and add the summaries of all.
+
+    Parameters
+    ----------
+    plan, directory, means, watcher
+        As for :func:`run`.
+    summaries
+        Filled by the names of points.
+    """
+    whole = len(plan.points) <= FEW_POINTS if means.keep_results is None else means.keep_results
+    whole = whole and directory is not None
+    archive = None if directory is None else Archive(prepare_directory(directory), whole=whole)
+    summaries |= _kept(plan, archive, means)
     # By name: samples may coincide.
     missing = list({point.name: point for point in plan.points if point.name not in summaries}.values())
     watcher.arrived(Arrival(0, len(missing)))
     if not missing:
         return
     staging = "" if archive is None else str(archive.staging)
-    keep_results = means.keep_results and archive is not None
-    job = SweepJob(missing, keep_results, staging, watcher.stop, watcher.note)
+    job = SweepJob(plan.case, missing, whole, staging, watcher.stop, watcher.note)
     with nullcontext() if archive is None else archive.open():
         for done, (point, outcome) in enumerate(_finished(job, means), 1):
             if archive is not None and outcome.final:
@@ -300,7 +311,7 @@ def _here(job: SweepJob) -> Finished:
     for point in job.points:
         if job.stop():
             return
-        outcome = compute(point.toml, version("tribodyn"), job.keep_result, stop=job.stop)
+        (outcome,) = compute(job.case, [point.changes], version("tribodyn"), job.keep_result, stop=job.stop)
         if outcome.failure and job.stop():
             return
         yield point, outcome

@@ -1,4 +1,4 @@
-"""Work of every runner: one point, from the text of a case to numbers and bytes.
+"""Work of every runner: some points, from a case and its changes to numbers and bytes.
 
 It writes no file but the whole result, where it is given a folder for that.
 """
@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, TypeAlias
 
+from tribodyn.cases import Case
 from tribodyn.core.errors import TribodynError
 from tribodyn.core.versions import unexpected, version
 from tribodyn.results.summary import Summary
@@ -50,14 +51,21 @@ def failed(reason: str, *, final: bool) -> PointOutcome:
 
 
 def compute(
-    toml: str, made_by: str, keep_result: bool, staging: str = "", stop: Callable[[], bool] | None = None
-) -> PointOutcome:
-    """Simulate one case.
+    case: Case,
+    changes: Sequence[Mapping[str, str]],
+    made_by: str,
+    keep_result: bool,
+    staging: str = "",
+    stop: Callable[[], bool] | None = None,
+) -> list[PointOutcome]:
+    """Simulate a case with some changes after the other, in one call of a worker.
 
     Parameters
     ----------
-    toml
-        The resolved case.
+    case
+        The case that all begin from.
+    changes
+        Of each point, by dotted path.
     made_by
         Version of tribodyn that planned it; another one does not compute it.
     keep_result
@@ -70,14 +78,21 @@ def compute(
 
     Returns
     -------
-    Outcome
+    list of PointOutcome
         A point that fails is an outcome too: no exception leaves this function but those that end processes.
     """
     own = version("tribodyn")
     if own != made_by:
-        return failed(f"the worker has tribodyn {own}, the sweep was planned by {made_by}", final=False)
+        reason = f"the worker has tribodyn {own}, the sweep was planned by {made_by}"
+        return len(changes) * [failed(reason, final=False)]
+    return [_outcome(case, one, keep_result, staging, stop) for one in changes]
+
+
+def _outcome(
+    case: Case, changes: Mapping[str, str], keep_result: bool, staging: str, stop: Callable[[], bool] | None
+) -> PointOutcome:
     try:
-        return _simulated(toml, keep_result, staging, stop)
+        return _simulated(case.replace(changes), keep_result, staging, stop)
     except TribodynError as error:
         return failed(str(error), final=True)
     except MemoryError:
@@ -86,14 +101,32 @@ def compute(
         return failed(unexpected(error), final=True)
 
 
-def _simulated(toml: str, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> PointOutcome:
-    from tribodyn.mechanisms.catalogue import parse_case
+_MOST_OF_BLOCK: Final = 16
+_BLOCK_TIME: Final = 1.0
+"""Processor time of a block [s]: what is lost with its worker, and how long a stop waits."""
+_TURNS: Final = 4
+"""Blocks that each worker still gets: the last ones are short, so that all end together."""
+
+
+def blocks_of(case: Case, points: Sequence[Point], workers: int) -> Iterator[Sequence[Point]]:
+    """Yield points that a worker computes in one call: few of long cases, and towards the end one."""
+    from tribodyn.simulation import estimate
+
+    seconds, done = estimate(case).seconds, 0
+    most = min(max(int(_BLOCK_TIME / seconds), 1), _MOST_OF_BLOCK)
+    while done < len(points):
+        size = min(max((len(points) - done) // (_TURNS * workers), 1), most)
+        yield points[done : done + size]
+        done += size
+
+
+def _simulated(case: Case, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> PointOutcome:
     from tribodyn.mechanisms.results import summarise
     from tribodyn.results import netcdf_content
     from tribodyn.results.atomic import stage
     from tribodyn.simulation import simulate
 
-    dataset = simulate(parse_case(toml, "sweep"), stop=stop)
+    dataset = simulate(case, stop=stop)
     summary, content = summarise(dataset), netcdf_content(dataset) if keep_result else b""
     if content and staging:
         with contextlib.suppress(OSError):
@@ -147,6 +180,8 @@ class SweepJob:
 
     Attributes
     ----------
+    case
+        The case that all begin from.
     points
         One or more.
     keep_result
@@ -159,6 +194,7 @@ class SweepJob:
         Called with what a user should know.
     """
 
+    case: Case
     points: Sequence[Point]
     keep_result: bool
     staging: str

@@ -175,7 +175,7 @@ def test_a_flat_mechanism_is_seen_across_its_plane(flat: int) -> None:
 def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) -> None:
     family = FIGURES[name]
     if not family.drawable(RESULT):
-        assert name in ("wear_history", "modes", "mode_shapes", "guides")
+        assert name in ("wear_history", "modes", "mode_shapes", "guides", "copies")
         return
     assert family.draw(RESULT).axes
     assert family.draw(RESULT.isel(time=slice(0, 0), frame=slice(0, 0))).axes

@@ -8,11 +8,17 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.netcdf import dataset_of
 from tribodyn.studies import work
 
-TOML = load_case("vsv").to_toml()
+CASE = load_case("vsv")
+
+
+def computed(*more: Any, made_by: str = "", clearance: str = "20 um") -> work.PointOutcome:
+    """Compute one point."""
+    (found,) = work.compute(CASE, [{"joint.clearance": clearance}], made_by or version("tribodyn"), *more)
+    return found
 
 
 def test_another_version_computes_nothing_and_that_is_not_final(simulated: list[Any]) -> None:
-    outcome = work.compute(TOML, "99", True)
+    outcome = computed(True, made_by="99")
     assert "the sweep was planned by 99" in outcome.failure
     assert not outcome.final
     assert simulated == []
@@ -23,12 +29,11 @@ def test_lack_of_memory_is_the_fault_of_the_worker(monkeypatch: pytest.MonkeyPat
         raise MemoryError
 
     monkeypatch.setattr(work, "_simulated", exhausted)
-    assert not work.compute(TOML, version("tribodyn"), True).final
+    assert not computed(True).final
 
 
 def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
-    toml = load_case("vsv").replace({"joint.clearance": "30 um"}).to_toml()
-    outcome = work.compute(toml, version("tribodyn"), True)
+    outcome = computed(True, clearance="30 um")
     assert outcome.failure
     assert outcome.final
     assert outcome.result
@@ -37,13 +42,13 @@ def test_a_failed_run_keeps_what_it_computed(simulated: list[Any]) -> None:
 def test_a_result_is_staged_where_there_is_a_place_and_returned_where_not(
     simulated: list[Any], tmp_path: Path
 ) -> None:
-    staged = work.compute(TOML, version("tribodyn"), True, str(tmp_path / "sweep"))
+    staged = computed(True, str(tmp_path / "sweep"))
     assert staged.result == b""
     assert Path(staged.staged).parent == tmp_path
-    returned = work.compute(TOML, version("tribodyn"), True, str(tmp_path / "nowhere" / "sweep"))
+    returned = computed(True, str(tmp_path / "nowhere" / "sweep"))
     assert returned.staged == ""
     # The file format notes the second in which each was written.
     assert dataset_of(returned.result).identical(dataset_of(Path(staged.staged).read_bytes()))
     assert returned.summary == staged.summary
-    assert not work.compute(TOML, version("tribodyn"), False, str(tmp_path / "sweep")).staged
+    assert not computed(False, str(tmp_path / "sweep")).staged
     assert len(list(tmp_path.iterdir())) == 1

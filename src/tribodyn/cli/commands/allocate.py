@@ -42,6 +42,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def execute(args: Namespace) -> int:
     """Find the cheapest choice, confirm it, and print it."""
     from tribodyn.studies import Watcher, allocate
+    from tribodyn.studies.allocation import CHOSEN
 
     if args.samples < 1:
         raise InputError(f"given {args.samples}; allowed: 1 or more", key="--samples")
@@ -58,6 +59,7 @@ def execute(args: Namespace) -> int:
             watcher=Watcher(stop=stop, note=console.note),
         )
     _tell(found, args.probability, console)
+    console.say(f"The case with these tolerances is {directory / CHOSEN}")
     if console.json:
         show_json(_as_json(found))
     return 0

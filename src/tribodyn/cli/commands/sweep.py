@@ -17,8 +17,8 @@ from tribodyn.cli.console import POINTS, Console, Progress, complain, progress, 
 from tribodyn.cli.directory import POINTS as POINTS_FOLDER
 from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
-from tribodyn.cli.pictures import FEW_POINTS, draw, draw_points
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
+from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.cli.tables import sweep_in_words
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
@@ -86,9 +86,15 @@ def add_arguments(parser: ArgumentParser) -> None:
     again = parser.add_mutually_exclusive_group()
     again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
     again.add_argument("--fresh", action="store_true", help="compute all points again")
-    parser.add_argument(
-        "--summary-only", action="store_true", help="keep key results of each point, not its whole result"
+    whole = parser.add_mutually_exclusive_group()
+    whole.add_argument(
+        "--results",
+        dest="whole",
+        action="store_true",
+        default=None,
+        help="keep the whole result of each point; by default those of up to 24 points are kept",
     )
+    whole.add_argument("--summary-only", dest="whole", action="store_false", help="keep none of them")
 
 
 def execute(args: Namespace) -> int:
@@ -106,7 +112,7 @@ def execute(args: Namespace) -> int:
     shown = _shown(args.show, case)
     limits = [limit(text, case, "--limit", least=False) for text in args.limits]
     plan = make_plan(case, _variations(args.vary), Sampling(args.samples, args.method, args.seed))
-    means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, not args.summary_only)
+    means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, args.whole)
     directory = OutputDirectory(folder)
     with directory.reserved():
         with Interruption(_STOPPING) as interruption:
@@ -250,6 +256,8 @@ def _draw(dataset: xr.Dataset, path: Path, console: Console, args: Namespace, *,
     """
     safe = f"the results are saved in {path}; `tribodyn report {path}` draws them"
     last_words(f"interrupted while drawing; {safe}")
+    from tribodyn.results.store import FEW_POINTS
+
     try:
         if args.page and points and int(dataset.attrs["points_in_all"]) <= FEW_POINTS:
             draw_points(path, console.note)

@@ -9,7 +9,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from statistics import NormalDist
-from typing import ClassVar, Final, Literal
+from typing import ClassVar, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -130,19 +130,24 @@ class ScatterKeys(NamedGroup):
     def drawn(self, key: Key, number: int) -> list[float]:
         """Return a value for each of some copies [SI]."""
         if self.distribution is None:
-            given = self.values or ()
-            words = f"the pattern has {number} copies, and here are {len(given)} values"
-            demand(len(given) == number, "values", words)
-            return [self._read(key, "values", one) for one in given]
+            words = f"the pattern has {number} copies, and here are {len(self.values or ())} values"
+            demand(len(self.values or ()) == number, "values", words)
+            return self.at_shares(key, [(copy + 0.5) / number for copy in range(number)])
+        return self.at_shares(key, np.random.default_rng(self.seed).random(number).tolist())
+
+    def at_shares(self, key: Key, shares: Sequence[float]) -> list[float]:
+        """Return the values [SI] below which shares of all copies lie; of a list, those at shares of it."""
+        if self.distribution is None:
+            given = [self._read(key, "values", one) for one in self.values or ()]
+            return [given[int(share * len(given))] for share in shares]
         words = "a distribution has two arguments: mean and standard deviation, or both ends"
         demand(self.arguments is not None, "arguments", words)
         first, second = (self._read(key, "arguments", one) for one in self.arguments or ())
         words = "a standard deviation is above zero, and the upper end above the lower one"
         demand(second > (0.0 if self.distribution == "normal" else first), "arguments", words)
-        parts = np.random.default_rng(self.seed).random(number).tolist()
         if self.distribution == "uniform":
-            return [first + (second - first) * part for part in parts]
-        return [first + second * NormalDist().inv_cdf(part) for part in parts]
+            return [first + (second - first) * share for share in shares]
+        return [first + second * NormalDist().inv_cdf(share) for share in shares]
 
     def _read(self, key: Key, own: str, value: str) -> float:
         """Return a value of the key that is meant."""
@@ -171,10 +176,11 @@ def with_copies(
         A pattern overlaps itself or another one, or repeats what is not there.
     """
     patterns = {name: group_at(PatternKeys, f"{PATTERN}.{name}", values) for name in _names(values, PATTERN)}
-    scatter = {name: group_at(ScatterKeys, f"{SCATTER}.{name}", values) for name in _names(values, SCATTER)}
+    scatter = scatter_in(values)
     for label, one in scatter.items():
         demand_known(one.pattern, patterns, f"{SCATTER}.{label}.pattern", "pattern")
     for label, pattern in patterns.items():
+        own = {key: one for key, one in scatter.items() if one.pattern == label}
         bodies = _names(values, "bodies")
         for other, before in patterns.items():
             both = [body for body in pattern.bodies if other != label and body in before.bodies]
@@ -189,12 +195,22 @@ def with_copies(
                 f"this case was written with its {held} copies; their number is that of the file before it"
             )
             demand(held == pattern.count, f"{PATTERN}.{label}.count", words)
+            words = "this case was written with its copies; what scatters stands in the file before it"
+            demand(not own, f"{SCATTER}.{next(iter(own), '')}", words)
             continue
         for body in pattern.bodies:
             demand_known(body, bodies, f"{PATTERN}.{label}.bodies", "body")
-        own = {key: one for key, one in scatter.items() if one.pattern == label}
         values, tables = _Repeated(pattern, values, keys).copies(own, tables)
-    return values, tables
+    if not scatter:
+        return values, tables
+    # What scatters has its values now, and draws no other ones where they are written.
+    left = {path: value for path, value in values.items() if not path.startswith(f"{SCATTER}.")}
+    return left, [table for table in tables if not table.startswith(f"{SCATTER}.")]
+
+
+def scatter_in(values: Mapping[str, Value]) -> dict[str, ScatterKeys]:
+    """Return the scatter of copies among the values of a case, by its names."""
+    return {name: group_at(ScatterKeys, f"{SCATTER}.{name}", values) for name in _names(values, SCATTER)}
 
 
 def _names(values: Mapping[str, Value], table: str) -> list[str]:
@@ -202,21 +218,36 @@ def _names(values: Mapping[str, Value], table: str) -> list[str]:
     return list(dict.fromkeys(path.split(".")[1] for path in values if path.startswith(f"{table}.")))
 
 
+Part: TypeAlias = tuple[str, str]
+"""Kind and name of a part of a case."""
+
+
+def parts_that_name(values: Mapping[str, Value]) -> dict[Part, set[Part]]:
+    """Return the bodies and joints that parts of a case name."""
+    named: dict[Part, set[Part]] = {}
+    for path, value in values.items():
+        if (kind := _named_by(path)) and path.count(".") > 1:
+            given = (value,) if isinstance(value, str) else value
+            named.setdefault(_part(path), set()).update((kind, str(one)) for one in given)  # type: ignore[union-attr]
+    return named
+
+
+def repeated(pattern: PatternKeys, named: Mapping[Part, set[Part]]) -> set[Part]:
+    """Return the parts that a pattern repeats: its bodies, and what names them or each other."""
+    parts = {("bodies", body) for body in pattern.bodies}
+    before = 0
+    while before < len(parts):
+        before = len(parts)
+        parts |= {part for part, others in named.items() if others & parts}
+    return parts
+
+
 class _Repeated:
     """The parts of a case that a pattern repeats."""
 
     def __init__(self, pattern: PatternKeys, values: dict[str, Value], keys: Mapping[str, Key]) -> None:
         self._pattern, self._values, self._keys = pattern, values, keys
-        self._parts = {("bodies", body) for body in pattern.bodies}
-        named: dict[tuple[str, str], set[tuple[str, str]]] = {}
-        for path, value in values.items():
-            if (kind := _named_by(path)) and path.count(".") > 1:
-                given = (value,) if isinstance(value, str) else value
-                named.setdefault(_part(path), set()).update((kind, str(one)) for one in given)  # type: ignore[union-attr]
-        before = 0
-        while before < len(self._parts):
-            before = len(self._parts)
-            self._parts |= {part for part, others in named.items() if others & self._parts}
+        self._parts = repeated(pattern, parts_that_name(values))
 
     def copies(
         self, scatter: Mapping[str, ScatterKeys], tables: list[str]
@@ -311,7 +342,7 @@ class _Repeated:
             )
 
 
-def _part(path: str) -> tuple[str, str]:
+def _part(path: str) -> Part:
     """Return kind and name of the part that a path belongs to."""
     kind, _, rest = path.partition(".")
     return kind, rest.partition(".")[0]

@@ -2,25 +2,36 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import Final
 
 import numpy as np
 import xarray as xr
 
+from tribodyn.cases.tables import keys_in
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.results.reading import column, entries, settled
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import ERROR_UNITS
 
 _COPY: Final = re.compile(r"(.+)\[\d+\]")
+_OF_COPY: Final = re.compile(r"([^[]+)\[\d+\](\.[^:[]+)")
+"""Path of a key of a copy."""
+_SAME: Final = 1e-9
+"""Relative difference of values that are the same."""
 
 
 def copies_of(dataset: xr.Dataset) -> dict[str, list[int]]:
     """Return the numbers of the outputs that are copies of one another, by the name that they share."""
+    return _numbered(entries(dataset, "output").tolist())
+
+
+def _numbered(names: Iterable[object]) -> dict[str, list[int]]:
+    """Return the places of copies among names, by the name that they share."""
     found: dict[str, list[int]] = {}
-    for number, name in enumerate(entries(dataset, "output").tolist()):
+    for number, name in enumerate(names):
         if match := _COPY.fullmatch(str(name)):
             found.setdefault(match[1], []).append(number)
     return {name: numbers for name, numbers in found.items() if len(numbers) > 1}
@@ -37,9 +48,60 @@ def apart(error: FloatArray) -> FloatArray:
     return np.asarray(error - error.mean(axis=1, keepdims=True))
 
 
-def _worst(error: FloatArray) -> float:
-    """Return the number, from 1, of the copy that is furthest from the mean."""
-    return float(1 + np.argmax(np.mean(apart(error) ** 2, axis=0)))
+def worst(error: FloatArray) -> int:
+    """Return the place of the copy whose errors (n_t, n) are furthest from the mean of all."""
+    return int(np.argmax(np.mean(apart(error) ** 2, axis=0)))
+
+
+def worst_copies(dataset: xr.Dataset) -> list[str]:
+    """Return the ends of the names of the parts of the copies that are furthest from the mean: ``[7]``."""
+    error = column(dataset, "output_error")
+    return [f"[{1 + worst(error[:, numbers])}]" for numbers in copies_of(dataset).values()]
+
+
+def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[str]:
+    """Yield by which values a copy is the furthest from the mean, a sentence for each repeated output.
+
+    The errors of copies are fitted by a linear function of the values in which they differ.
+
+    Parameters
+    ----------
+    case
+        What was simulated.
+    time, errors
+        Times of its rows [s], and the errors of its outputs, shape (n_t, n_outputs).
+    """
+    period = case.period or math.inf
+    errors = errors[time >= (period if time[-1] >= 2.0 * period * (1.0 - 1e-9) else 0.0)]
+    values = _differing(case)
+    for name, numbers in _numbered(case.outputs).items():
+        error = apart(errors[:, numbers])
+        own = {key: of for key, of in values.items() if of.size == len(numbers)}
+        if not own or len(numbers) < len(own) + 2 or not np.isfinite(error).all() or not error.any():
+            continue
+        off = np.array([(of - of.mean()) / of.std() for of in own.values()]).T
+        factors, *_ = np.linalg.lstsq(off, error.T, rcond=None)
+        k = worst(error)
+        parts = np.sum(factors * off[k][:, None] * error[:, k], axis=1) / np.sum(error[:, k] ** 2)
+        causes = (
+            f"{part:.0%} of that by {key}, {place:+.2g} standard deviations off"
+            for key, place, part in zip(own, off[k], parts, strict=True)
+        )
+        yield (
+            f"{name}[{k + 1}] is the copy furthest from the mean: {'; '.join(causes)}; "
+            f"{1.0 - parts.sum():.0%} follow no line."
+        )
+
+
+def _differing(case: MechanismCase) -> dict[str, FloatArray]:
+    """Return the values in which copies differ, by the key that they repeat, each of shape (n,)."""
+    found: dict[str, list[float]] = {}
+    for path in keys_in(case) if case.pattern else ():
+        if match := _OF_COPY.fullmatch(path):
+            value = case.at(path)
+            if isinstance(value, float):
+                found.setdefault(match[1] + match[2], []).append(value)
+    return {key: np.array(of) for key, of in found.items() if np.ptp(of) > _SAME * np.max(np.abs(of))}
 
 
 def _hysteresis(dataset: xr.Dataset, numbers: list[int], scale: float) -> float:
@@ -96,9 +158,17 @@ def _turned(unit: str, dataset: xr.Dataset) -> float:
 def _which(dataset: xr.Dataset) -> float:
     """Return the worst copy of the first output that is repeated."""
     numbers = next(iter(copies_of(dataset).values()), None)
-    return (
-        math.nan if numbers is None else _worst(settled(dataset, column(dataset, "output_error")[:, numbers]))
-    )
+    if numbers is None:
+        return math.nan
+    return 1.0 + worst(settled(dataset, column(dataset, "output_error")[:, numbers]))
+
+
+def _beyond(dataset: xr.Dataset) -> float:
+    """Return the share of all copies that pass the limit of their error; NaN without limits."""
+    limits, error = entries(dataset, "output_error_limit"), column(dataset, "output_error")
+    numbers = [k for of in copies_of(dataset).values() for k in of if np.isfinite(limits[k])]
+    largest = np.abs(settled(dataset, error[:, numbers])).max(axis=0, initial=0.0)
+    return 100.0 * float(np.mean(largest > limits[numbers])) if numbers else math.nan
 
 
 def _of_unit(unit: str) -> Iterator[tuple[str, KeyResult]]:
@@ -125,6 +195,13 @@ COPIES: Final[dict[str, KeyResult]] = {
         "Number of the copy whose output is furthest from the mean of all, over the run.",
         _which,
         count=True,
+    ),
+    "copies_beyond_percent": KeyResult(
+        "Copies beyond their limit",
+        "%",
+        "Outputs",
+        "Share of the copies whose error passes the limit of the output at any time.",
+        _beyond,
     ),
 }
 """Key results of outputs that a pattern repeats."""

@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.copies import apart, copies_of
+from tribodyn.mechanism.results.copies import copies_of, worst
 from tribodyn.mechanism.results.readings import WHOLE, offset, sizes
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
@@ -125,9 +125,10 @@ def output_errors(dataset: xr.Dataset) -> list[Panel]:
     """Return the errors of outputs against the ideal motion [µm, °, mm/s]."""
     names, units = _names(dataset, "output"), dataset["output_unit"].values
     error = dataset["output_error"].values
+    repeated = [k for numbers in copies_of(dataset).values() for k in numbers]
     panels = []
     for unit, (_, shown, scale) in ERROR_UNITS.items():
-        chosen = np.flatnonzero(units == unit)
+        chosen = np.setdiff1d(np.flatnonzero(units == unit), repeated)
         panels.append((f"error [{shown}]", curves([names[k] for k in chosen], scale * error[:, chosen])))
     return _panels(*_of_copies(dataset), *panels)
 
@@ -137,9 +138,9 @@ def _of_copies(dataset: xr.Dataset) -> Iterator[tuple[str, list[ChartCurve]]]:
     for name, numbers in copies_of(dataset).items():
         unit = ERROR_UNITS[str(dataset["output_unit"].values[numbers[0]])]
         error = unit.scale * dataset["output_error"].values[:, numbers]
-        worst = int(np.argmax(np.mean(apart(error) ** 2, axis=0)))
+        k = worst(error)
         lines = {"largest": error.max(axis=1), "mean": error.mean(axis=1), "least": error.min(axis=1)}
-        lines[f"{name}[{worst + 1}]"] = error[:, worst]
+        lines[f"{name}[{k + 1}]"] = error[:, k]
         drawn = [
             ChartCurve(label, line, *look) for (label, line), look in zip(lines.items(), LOOKS, strict=False)
         ]

@@ -8,6 +8,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.mechanism.model.body import BodyKeys, body_solid
+from tribodyn.mechanism.results.copies import worst_copies
 from tribodyn.mechanism.sections.scene import clearances, forces, magnified
 from tribodyn.views.charts import LOOKS
 from tribodyn.views.encode import packed
@@ -59,12 +60,13 @@ def data(dataset: xr.Dataset) -> Payload | None:
     everywhere = np.concatenate([part.reshape(-1, 3) for part in shown])
     low, high = everywhere.min(axis=0), everywhere.max(axis=0)
     eye, up = view(everywhere)
+    marked = tuple(worst_copies(dataset)) if "output_error" in dataset else ()
     return {
         "size": float(np.linalg.norm(high - low)),
         "eye": eye.tolist(),
         "up": up.tolist(),
         "bodies": [
-            _body(name, k, points) | {"solid": solid}
+            _body(name, k, points) | {"solid": solid} | _marked(name, marked)
             for k, (name, points, solid) in enumerate(zip(drawn.bodies, bodies, solids, strict=True))
         ],
         "joints": [
@@ -92,6 +94,13 @@ def _body(name: str, number: int, points: FloatArray) -> dict[str, Any]:
     hub = points.mean(axis=1, keepdims=True)
     spread = points if points.shape[1] == 2 else np.concatenate([hub, points], axis=1)
     return {"name": name, "colour": _colour(number), "n": spread.shape[1], "points": packed(spread)}
+
+
+def _marked(name: str, copies: tuple[str, ...]) -> dict[str, str]:
+    """Return the colour of a body of the copy furthest from the mean; nothing for others, which are grey."""
+    if not copies:
+        return {}
+    return {"colour": "vermilion" if name.partition(":")[0].endswith(copies) else "grey"}
 
 
 def _solid(
@@ -124,7 +133,8 @@ SECTION: Final = Section(
     title="The mechanism",
     caption=(
         "Bodies with a shape in their sizes, others as rods between their joints. Pins and balls in bores "
-        "move magnified. Springs show as coils, other elements as thin lines. "
+        "move magnified. Of copies the one furthest from the mean is in vermilion. "
+        "Springs show as coils, other elements as thin lines. "
         "Arrows are forces and moments of joints on their second bodies, and of loads where they act. "
         "Drag to turn it, or use the arrow keys."
     ),
