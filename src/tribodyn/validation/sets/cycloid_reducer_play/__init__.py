@@ -88,28 +88,20 @@ def compare(one: ValidationSet) -> Outcome:
     found = fitted(play, (FRICTION, PLAY, ZERO), {"stiffness": stiffness})
     without = fitted(play, (FRICTION, STIFFNESS, ZERO), {"play": 1e-3})
     authors = next(row for row in one.rows("play_friction_stiffness.csv") if row["reducer"] == "baseline")
-    at_rest, crossed = (
-        play.crossings(play.deflection, play.torque),
-        play.crossings(play.torque, play.deflection),
-    )
+    at_rest = play.crossings(play.deflection, play.torque)
+    crossed = play.crossings(play.torque, play.deflection)
     rises = np.diff(stiff.torque, prepend=0.0) > 0.0
     outer = rises & (stiff.torque > 0.4 * stiff.torque[rises].max())
     slope = math.degrees(float(np.polyfit(stiff.deflection[outer], stiff.torque[outer], 1)[0]))
-    rows = [
-        Comparison(
-            f"{name}, baseline after running in",
-            unit,
-            value,
-            float(authors[column]),
-            null=null,
-            band=one.bands[name],
-        )
-        for name, unit, value, column, null in (
-            ("play", "deg", found.named["play"], "play_deg", float(np.ptp(at_rest))),
-            ("friction", "N m", found.named["friction"], "coulomb_friction_Nm", 0.5 * float(np.ptp(crossed))),
-            ("stiffness", "N m/rad", stiffness, "stiffness_Nm_per_rad", slope),
-        )
-    ]
+    width, half = float(np.ptp(at_rest)), 0.5 * float(np.ptp(crossed))
+    rows = []
+    for name, unit, value, column, null in (
+        ("play", "deg", found.named["play"], "play_deg", width),
+        ("friction", "N m", found.named["friction"], "coulomb_friction_Nm", half),
+        ("stiffness", "N m/rad", stiffness, "stiffness_Nm_per_rad", slope),
+    ):
+        label, own = f"{name}, baseline after running in", float(authors[column])
+        rows.append(Comparison(label, unit, value, own, null=null, band=one.bands[name]))
     error, missed = (rms(fit.residuals) for fit in (found, without))
     name = "fitted loop of the play test, root mean square error"
     rows.append(Comparison(name, "deg", error, null=missed, band=one.bands["loop"]))

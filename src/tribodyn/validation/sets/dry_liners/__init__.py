@@ -67,24 +67,14 @@ def _wear(name: str, rate: float, band: Band) -> Comparison:
 
 def _lives(case: VsvCase, rates: tuple[float, float], band: Band) -> list[Comparison]:
     """Return the factor stated with a life, and the ratio of the depths of two runs with both ends."""
-    depths = [
-        float(
-            simulate(case.replace({"wear.specific_wear_rate": f"{rate} m^2/N", "run.cycles": 1}))[
-                "wear_depth"
-            ].max()
-        )
-        for rate in rates
-    ]
+    keys = [{"wear.specific_wear_rate": f"{rate} m^2/N", "run.cycles": 1} for rate in rates]
+    least, most = (float(simulate(case.replace(one))["wear_depth"].max()) for one in keys)
     limited = simulate(case.replace({"wear.depth_limit": DEPTH_LIMIT, "run.cycles": 1}))
     stated = float(limited.attrs["wear_life_factor"])
     return [
         Comparison("factor stated with a life", "", stated, 80.0, null=1.0, band=band),
         Comparison(
-            "lives at both ends of the wear rate, ratio",
-            "",
-            depths[1] / depths[0],
-            80.0,
-            null=rates[1] / rates[0],
+            "lives at both ends of the wear rate, ratio", "", most / least, 80.0, null=rates[1] / rates[0]
         ),
     ]
 

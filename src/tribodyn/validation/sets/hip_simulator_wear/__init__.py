@@ -73,22 +73,15 @@ def _saikko(one: ValidationSet) -> list[Comparison]:
     paths = [load_path(one, cycle(SAIKKO, mean)) for mean in (load.value, load.low, load.high)]
     loss = 1e6 * paths[0] * one.value("rate") * 1e9 * one.value("density")
     row = next(row for row in one.rows("wear.csv") if row["set"] == "saikko")
-    path = Comparison(
-        "saikko, load times path",
-        "N m a cycle",
-        paths[0],
-        u_computed=(paths[0] - paths[1], paths[2] - paths[0]),
-        null=by_hand(SAIKKO, load.value),
-        band=one.bands["path"],
-        spread=(paths[1], paths[2]),
-    )
-    mean = float(row["wear_rate"])
-    weight = Comparison(
-        "saikko, loss of weight", "mg in a million cycles", loss, mean,
-        u_measured=max(mean - float(row["wear_rate_min"]), float(row["wear_rate_max"]) - mean),
-        null=mean, note="Five equal joints lost 0.4 to 7.1 mg.",
-    )  # fmt: skip
-    return [path, weight]
+    sides, null = (paths[0] - paths[1], paths[2] - paths[0]), by_hand(SAIKKO, load.value)
+    judged = None, sides, 0.0, null, one.bands["path"], (paths[1], paths[2])
+    mean, least, most = (float(row[f"wear_rate{end}"]) for end in ("", "_min", "_max"))
+    measured = mean, 0.0, max(mean - least, most - mean), mean
+    note = "Five equal joints lost 0.4 to 7.1 mg."
+    return [
+        Comparison("saikko, load times path", "N m a cycle", paths[0], *judged),
+        Comparison("saikko, loss of weight", "mg in a million cycles", loss, *measured, note=note),
+    ]
 
 
 def _interval(one: ValidationSet) -> Comparison:

@@ -36,17 +36,9 @@ def compare(one: ValidationSet) -> Outcome:
         name, (low, high) = f"torque / (mu W R), {label} clearance", ratios.spread("load", "liner")[:, k]
         sides = ratios.sides_at(k)
         rows.append(Comparison(name, "", ratios.values[k], None, sides, 0.0, null, band, (low, high)))
-    quotient = float(ratios.values[0] / ratios.values[1])
-    rows.append(
-        Comparison(
-            "torque, narrow over wide clearance",
-            "",
-            quotient,
-            MEASURED_RATIO,
-            null=0.5 * np.pi,
-            note="The measured ratio belongs to an interference fit, which adds pressure of its own.",
-        )
-    )
+    quotient, name = float(ratios.values[0] / ratios.values[1]), "torque, narrow over wide clearance"
+    note = "The measured ratio belongs to an interference fit, which adds pressure of its own."
+    rows.append(Comparison(name, "", quotient, MEASURED_RATIO, null=0.5 * np.pi, note=note))
     rows += [*_wear(one, order), *_impacts(order)]
     return Outcome(tuple(rows), _plot(one))
 
@@ -72,21 +64,13 @@ def _wear(one: ValidationSet, order: Band) -> list[Comparison]:
     run = simulate(load_case("vsv").replace({"wear.cycles": int(one.value("wear_cycles"))}))
     cycles, volume = run["wear_cycles"].values, run["wear_volume"].values
     line = volume[-1] * cycles / cycles[-1]
+    growth, steady = (float(np.diff(values).min() * 1e12) for values in (volume, line))
+    name = "worn volume, least growth between two stops"
+    apart = 100.0 * float(np.abs(volume - line).max() / volume[-1])
+    of_line = "worn volume, largest distance from a straight line"
     return [
-        Comparison(
-            "worn volume, least growth between two stops",
-            "1e-3 mm3",
-            float(np.diff(volume).min() * 1e12),
-            null=float(np.diff(line).min() * 1e12),
-            band=order,
-        ),
-        Comparison(
-            "worn volume, largest distance from a straight line",
-            "% of the last",
-            100.0 * float(np.abs(volume - line).max() / volume[-1]),
-            0.0,
-            null=0.0,
-        ),
+        Comparison(name, "1e-3 mm3", growth, null=steady, band=order),
+        Comparison(of_line, "% of the last", apart, 0.0, null=0.0),
     ]
 
 

@@ -39,32 +39,16 @@ def compare(one: ValidationSet) -> Outcome:
     given = {name: one.value(name) for name in ("friction", "load", "liner")}
     torques = [torque_ratio(given, float(text.split()[0]) * 1e-6) for text in CLEARANCES]
     growth = (torques[0] - torques[1]) - (torques[1] - torques[2])
-    rows.append(
-        Comparison(
-            "torque / (mu W R), growth from 50 to 5 um less that from 350 to 50 um", "", growth,
-            null=0.0, band=order,
-        )
-    )  # fmt: skip
-    dry, oiled = (_crank({"run.cycles": 1, **more}) for more in ({}, _OIL))
-    forces = [float(_force(run).max()) for run in (dry, oiled)]
-    rows.append(
-        Comparison(
-            "peak force of the wrist, dry less in oil", "N", forces[0] - forces[1], null=0.0, band=order
-        )
-    )
-    angles = [
-        _angle_of_peak(_crank({"joints.wrist.clearance.radial": text, "run.cycles": 1})) for text in PEAKS
-    ]
-    rows.append(
-        Comparison(
-            "crank angle of the largest force, range over three clearances",
-            "deg",
-            float(np.ptp(angles)),
-            0.0,
-            null=0.0,
-            note="The statement names fixed places of several impacts in a cycle.",
-        )
-    )
+    name = "torque / (mu W R), growth from 50 to 5 um less that from 350 to 50 um"
+    rows.append(Comparison(name, "", growth, null=0.0, band=order))
+    forces = [float(_force(_crank({"run.cycles": 1, **more})).max()) for more in ({}, _OIL)]
+    name = "peak force of the wrist, dry less in oil"
+    rows.append(Comparison(name, "N", forces[0] - forces[1], null=0.0, band=order))
+    radial = "joints.wrist.clearance.radial"
+    angles = [_angle_of_peak(_crank({radial: text, "run.cycles": 1})) for text in PEAKS]
+    name = "crank angle of the largest force, range over three clearances"
+    note = "The statement names fixed places of several impacts in a cycle."
+    rows.append(Comparison(name, "deg", float(np.ptp(angles)), 0.0, null=0.0, note=note))
     return Outcome(tuple(rows), _plot(one, found))
 
 

@@ -29,23 +29,13 @@ def compare(one: ValidationSet) -> Outcome:
     authors = {row["parameter"]: float(row["value"]) for row in one.rows("authors_fit.csv")}
     theirs = _authors(authors, speed)
     oscillation = one.value("oscillation") / math.sqrt(2.0)
-    fitted = Comparison(
-        "fitted Stribeck law, root mean square difference",
-        "N",
-        rms(found.residuals),
-        0.0,
-        u_measured=math.hypot(oscillation, one.value("reading")),
-        null=rms(line - force),
-        band=one.bands["rms"],
-    )
-    published = Comparison(
-        "law of the authors, root mean square difference",
-        "N",
-        rms(theirs - force),
-        4.1,
-        null=rms(line - force),
-        note="The measured value is the one stated by the collection: a check of its formula.",
-    )
+    width, straight = math.hypot(oscillation, one.value("reading")), rms(line - force)
+    name = "root mean square difference"
+    note = "The measured value is the one stated by the collection: a check of its formula."
+    values = rms(found.residuals), 0.0, 0.0, width, straight, one.bands["rms"]
+    fitted = Comparison(f"fitted Stribeck law, {name}", "N", *values)
+    of_authors = rms(theirs - force), 4.1, 0.0, 0.0, straight
+    published = Comparison(f"law of the authors, {name}", "N", *of_authors, note=note)
     measured = Curve("measured", "measured", speed, force, [one.value("reading")] * speed.size)
     fit_curve = Curve("fitted Stribeck law", "computed", speed, law(found.named, speed))
     null = Curve("straight line", "null", speed, line)

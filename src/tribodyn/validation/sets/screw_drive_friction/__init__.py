@@ -100,16 +100,10 @@ def _largest(found: LeastSquares) -> float:
 def _payload(one: ValidationSet, found: LeastSquares) -> Comparison:
     """Return the fitted torque of the payload beside that of an ideal screw, W l/2π."""
     ideal = 1e3 * one.value("payload") * one.value("lead") / (2.0 * math.pi)
-    return Comparison(
-        "drive 1, torque of the payload",
-        "mN m",
-        abs(found.named["payload"]),
-        ideal,
-        u_computed=found.half_width("payload"),
-        null=ideal,
-        band=one.bands["payload"],
-        note="The measured value is that of an ideal screw, payload times lead over 2 pi.",
-    )
+    note = "The measured value is that of an ideal screw, payload times lead over 2 pi."
+    widths, name = (found.half_width("payload"), 0.0), "drive 1, torque of the payload"
+    values, band = (abs(found.named["payload"]), ideal), one.bands["payload"]
+    return Comparison(name, "mN m", *values, *widths, ideal, band, note=note)
 
 
 def _plot(one: ValidationSet, fits: dict[tuple[str, str], LeastSquares]) -> Plot:

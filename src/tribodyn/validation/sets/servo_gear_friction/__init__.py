@@ -28,53 +28,26 @@ def compare(one: ValidationSet) -> Outcome:
     slopes = _at_voltages(one, "friction per carried torque")
     slope_units = one.value("slope_low"), one.value("slope_high")
     four = replace(one.bands["floor"], at_least=units[0], at_most=units[1])
+    half, unit = 0.5 * (high - low), "N m"
+    why = (
+        "The logarithm was chosen with the values known, and the verdict rests on it: without "
+        f"it the fitted value is {plain.named['floor']:.3f} N m, outside the band."
+    )
+    note = "Judged is what the intervals of both fits, with and without the logarithm, have in common."
+    known = sum(units) / 2.0, half, 0.5 * (units[1] - units[0]), at_hold
+    slope, scatter = float(slopes.mean()), float(np.ptp(slopes)) / 2.0
+    sloped = sum(slope_units) / 2.0, scatter, 0.5 * (slope_units[1] - slope_units[0]), float(slopes[-1])
+    judged = None, half, 0.0, at_hold, one.bands["floor_interval"], of_both
     rows = [
-        Comparison(
-            "friction floor, fitted value",
-            "N m",
-            value,
-            sum(units) / 2.0,
-            u_computed=0.5 * (high - low),
-            u_measured=0.5 * (units[1] - units[0]),
-            null=at_hold,
-            band=four,
-            not_judged="The logarithm was chosen with the values known, and the verdict rests on it: without "
-            f"it the fitted value is {plain.named['floor']:.3f} N m, outside the band.",
-        ),
-        Comparison(
-            "friction floor, interval",
-            "N m",
-            value,
-            u_computed=0.5 * (high - low),
-            null=at_hold,
-            spread=of_both,
-            band=one.bands["floor_interval"],
-            note="Judged is what the intervals of both fits, with and without the logarithm, have in common.",
-        ),
-        Comparison(
-            "friction per carried torque, mean of three voltages",
-            "N m per N m",
-            float(slopes.mean()),
-            sum(slope_units) / 2.0,
-            u_computed=float(np.ptp(slopes)) / 2.0,
-            u_measured=0.5 * (slope_units[1] - slope_units[0]),
-            null=float(slopes[-1]),
-        ),
+        Comparison("friction floor, fitted value", unit, value, *known, four, not_judged=why),
+        Comparison("friction floor, interval", unit, value, *judged, note=note),
+        Comparison("friction per carried torque, mean of three voltages", "N m per N m", slope, *sloped),
     ]
     measured = _at_voltages(one, "droop")
-    computed = droop(measured)
-    rows += [
-        Comparison(
-            f"droop at {voltage:g} V",
-            "deg per N m",
-            float(computed[k]),
-            float(measured[k]),
-            u_measured=one.value("method_error") * float(measured[k]),
-            null=float(measured.mean()),
-            band=one.bands["droop"],
-        )
-        for k, voltage in enumerate(VOLTAGES)
-    ]
+    computed, mean = droop(measured), float(measured.mean())
+    for voltage, value, droops in zip(VOLTAGES, computed.tolist(), measured.tolist(), strict=True):
+        name, error = f"droop at {voltage:g} V", one.value("method_error") * droops
+        rows.append(Comparison(name, "deg per N m", value, droops, 0.0, error, mean, one.bands["droop"]))
     width = one.value("method_error") * measured
     points = Curve("measured", "measured", VOLTAGES, measured, width)
     curve = Curve("inverse to the voltage", "computed", VOLTAGES, computed)
