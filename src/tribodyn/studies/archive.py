@@ -95,8 +95,12 @@ class Archive:
     def open(self) -> Iterator[None]:
         """Have the storage while the block runs; in the end what nobody kept goes."""
         if not self._whole:
-            with self._appending():
+            try:
                 yield
+            finally:
+                if self._lines is not None:
+                    os.fsync(self._lines.fileno())
+                    self._lines.close()
             return
         self.folder.mkdir(parents=True, exist_ok=True)
         remove_stale_parts(self.folder)
@@ -108,22 +112,10 @@ class Archive:
             with suppress(OSError):
                 self.folder.rmdir()
 
-    @contextmanager
-    def _appending(self) -> Iterator[None]:
-        """Open the file of lines, without what was written in part; a link in its place is replaced."""
-        write_text(self._file, "".join(_line(name, summary) for name, summary in self._kept.items()))
-        with self._file.open("a", encoding="utf-8") as self._lines:
-            try:
-                yield
-            finally:
-                self._lines.flush()
-                os.fsync(self._lines.fileno())
-
     def keep(self, point: Point, outcome: PointOutcome) -> None:
         """Write a point, each file whole or not at all."""
-        if self._lines is not None:
-            self._lines.write(_line(point.name, outcome.summary))
-            self._lines.flush()
+        if not self._whole:
+            self._append(_line(point.name, outcome.summary))
             return
         folder = self.folder / point.name
         folder.mkdir(parents=True, exist_ok=True)
@@ -135,6 +127,14 @@ class Archive:
         elif outcome.result:
             write_bytes(folder / RESULT, outcome.result)
         write_text(folder / SUMMARY, summary_text(outcome.summary))
+
+    def _append(self, line: str) -> None:
+        """Write a line at the end of the file; what was written in part goes, and a link in its place."""
+        if self._lines is None:
+            write_text(self._file, "".join(_line(name, summary) for name, summary in self._kept.items()))
+            self._lines = self._file.open("a", encoding="utf-8")
+        self._lines.write(line)
+        self._lines.flush()
 
 
 def _line(name: str, summary: Summary) -> str:

@@ -67,11 +67,9 @@ def test_a_line_that_is_not_whole_is_left_out_and_gone_with_the_next(
     kept(tmp_path, point, 1.0)
     with (tmp_path / "points.jsonl").open("a", encoding="latin-1") as stream:
         stream.write(torn)
-    found = Archive(tmp_path, whole=False)
-    assert found.find(point) == {**SUMMARY, "number": 1.0}
-    with found.open():
-        pass
-    assert (tmp_path / "points.jsonl").read_text(encoding="utf-8").count("\n") == 1
+    assert Archive(tmp_path, whole=False).find(point) == {**SUMMARY, "number": 1.0}
+    assert kept(tmp_path, point, 2.0).find(point) == {**SUMMARY, "number": 2.0}
+    assert (tmp_path / "points.jsonl").read_text(encoding="utf-8").count("\n") == 2
 
 
 def test_a_link_in_the_place_of_the_lines_is_replaced(point: Point, tmp_path: Path) -> None:
