@@ -156,7 +156,9 @@ def wear_scatter(case: Case, prefix: str = "") -> tuple[float, float]:
             return float(scatter[0]), float(scatter[1])
     name, rate = case.at(f"{prefix}surfaces.bushing.{MATERIAL}"), f"{prefix}{_WEAR}"
     at = value_at(case, rate)
-    return materials.wear_scatter(case.given(rate), None if name is None else str(name), at)
+    # A case that is read back has its defaults written down.
+    given = None if at == keys_in(case)[rate].default else case.given(rate)
+    return materials.wear_scatter(given, None if name is None else str(name), at)
 
 
 @dataclass(frozen=True)

@@ -236,6 +236,12 @@ def test_a_scatter_that_is_none_is_refused(key: str, value: str) -> None:
         with_pair({f"wear.{key}": value})
 
 
+@pytest.mark.parametrize("name", ["slider-crank", "vsv"])
+def test_a_case_that_is_read_back_has_the_same_interval(name: str) -> None:
+    case = td.load_case(name)
+    assert parse_case(case.to_toml(), "test").wear_scatter() == case.wear_scatter()
+
+
 def test_either_scatter_or_repeats() -> None:
     with pytest.raises(InputError, match="either"):
         td.load_case("vsv").replace({"wear.scatter": "[0.5, 2]", "wear.repeats": "[1, 2]"})
