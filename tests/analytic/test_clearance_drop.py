@@ -10,7 +10,7 @@ from scipy.integrate import DOP853
 from tribodyn.contact import SurfacePair, law
 from tribodyn.contact.bounce import undamped_depth
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints.clearances import Clearance, assemble, pose_at, table_of
+from tribodyn.joints.clearances import Clearance, assemble, contact_table, pose_at
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.joint import report, update_entry_velocity, wrench
 from tribodyn.kernels.joints.surface.memory import new_memory
@@ -66,7 +66,7 @@ def test_over_the_surface(
     clearance = make_clearance(
         shape,
         coefficient=0.0,
-        table=table_of("surface", chosen, make_clearance(shape).shape, onset=4.0, smoothing_width=1.0),
+        table=contact_table("surface", chosen, make_clearance(shape).shape, onset=4.0, smoothing_width=1.0),
     )
     data = assemble([clearance])
 
@@ -88,7 +88,7 @@ def test_at_points(
     shape: str, wanted: float, make_clearance: MakeClearance, table_1_pair: SurfacePair
 ) -> None:
     chosen = law("gw", table_1_pair, damping_factor="calibrated", restitution=wanted)
-    table = table_of(POINT, chosen, make_clearance(shape).shape, onset=4.0, smoothing_width=1.0)
+    table = contact_table(POINT, chosen, make_clearance(shape).shape, onset=4.0, smoothing_width=1.0)
     data = assemble([make_clearance(shape, contact=POINT, coefficient=0.0, table=table)])
     # The speed at the touch is taken at the end of a step: 1e-3.
     assert drop(data, X, GAP, 0.02, table_1_pair.roughness_rms) == pytest.approx(wanted, abs=1e-3)
@@ -98,7 +98,7 @@ def test_a_ball_at_a_point_has_the_force_of_hertz(
     make_clearance: MakeClearance, table_1_pair: SurfacePair
 ) -> None:
     # F = (4/3) E √(R r/c) δ^1.5, whole at its one point.
-    table = table_of(
+    table = contact_table(
         POINT, law("ke", table_1_pair), make_clearance("sphere").shape, onset=4.0, smoothing_width=1.0
     )
     data, out = assemble([make_clearance("sphere", contact=POINT, table=table)]), np.empty(6)

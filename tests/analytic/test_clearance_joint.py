@@ -16,7 +16,7 @@ from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.joints.bushing import new_memory as bushing_memory
 from tribodyn.joints.bushing import pose_at as bushing_pose
-from tribodyn.joints.clearances import Clearance, assemble, places, pose_at, table_of
+from tribodyn.joints.clearances import Clearance, assemble, contact_table, places, pose_at
 from tribodyn.joints.point_contact import point_table
 from tribodyn.kernels.joints.bushing import pressure_field as bushing_field
 from tribodyn.kernels.joints.surface.data import SurfaceData
@@ -50,7 +50,7 @@ def kinds(make_clearance: MakeClearance, table_1_pair: SurfacePair) -> dict[str,
     chosen = law("rsdc", table_1_pair)
     for kind in POINTS:
         shape = kind.split(maxsplit=1)[0]
-        table = table_of(POINT, chosen, made[shape].shape, onset=4.0, smoothing_width=1.0)
+        table = contact_table(POINT, chosen, made[shape].shape, onset=4.0, smoothing_width=1.0)
         made[kind] = make_clearance(shape, contact=POINT, table=table, grid=(26, 6))
     for kind, shape in zip(ELASTIC, SHAPES, strict=True):
         rigid = made[shape]

@@ -8,7 +8,7 @@ import pytest
 from tests.unit.mechanism.drawings import Run, chain, run, slider_crank, with_clearance
 
 from tribodyn.contact import SurfacePair, law
-from tribodyn.joints.clearances import Clearance, table_of
+from tribodyn.joints.clearances import Clearance, contact_table
 from tribodyn.mechanism.assembly.assembly import assemble
 from tribodyn.mechanism.assembly.parts_by_number import Model
 
@@ -75,7 +75,7 @@ def test_a_loose_wrist_flies_and_strikes_as_in_the_literature(
     pair = SurfacePair((207e9, 207e9), (0.3, 0.3), (0.4e-6, 0.4e-6), 2e9, 0.03e12, 8e-6)
     chosen = law("ceb", pair, damping_factor="lankarani-nikravesh", restitution=0.9)
     loose = make_clearance("cylinder", contact=POINT, radius=10e-3, clearance=5e-4, coefficient=0.0)
-    table = table_of(POINT, chosen, loose.shape, onset=4.0, smoothing_width=1.0)
+    table = contact_table(POINT, chosen, loose.shape, onset=4.0, smoothing_width=1.0)
     loose = replace(loose, table=table, roughness=pair.roughness_rms)
     model = with_clearance(slider_crank(), loose, "wrist")
     times = TURN * np.linspace(0.0, 4.0, 4001)

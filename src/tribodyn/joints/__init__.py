@@ -1,8 +1,9 @@
 """Clearance joints: geometry, contact law and friction, made into what the kernels read."""
 
 from tribodyn.joints.bushing import BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.clearances import contact_table
 from tribodyn.joints.form import Form
-from tribodyn.joints.point_contact import CONTACTS, SURFACE, contact_table, point_table
+from tribodyn.joints.point_contact import CONTACTS, SURFACE, point_table
 
 __all__ = [
     "CONTACTS",

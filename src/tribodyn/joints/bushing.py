@@ -14,7 +14,7 @@ from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
 from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.joints.shapes.cylinder import Cylinder
-from tribodyn.joints.shapes.rings import Rings
+from tribodyn.joints.shapes.rings import Rings, with_edges
 from tribodyn.joints.shapes.surface import Points, Surface
 from tribodyn.joints.touch import Touch
 from tribodyn.kernels.arrays import new_record
@@ -120,22 +120,24 @@ class BushingJoint:
         return 2.0 * np.pi * np.arange(self.grid.theta) / self.grid.theta
 
     @property
+    def _rows(self) -> tuple[FloatArray, FloatArray]:
+        """Axial positions of the rows of nodes, both edges included [m], and their weights [m]."""
+        half = 0.5 * self.geometry.length
+        return with_edges(-half, half, *self.form.quadrature(self.grid.z, self.geometry.length))
+
+    @property
     def z(self) -> FloatArray:
         """Axial positions of the rows of nodes, both edges included [m], shape (n_z + 2,)."""
-        points, _ = self.form.quadrature(self.grid.z, self.geometry.length)
-        half = 0.5 * self.geometry.length
-        return np.concatenate([[-half], points, [half]])
+        return self._rows[0]
+
+    @property
+    def _strip(self) -> FloatArray:
+        return self._rows[1] * self.geometry.bore_radius
 
     @property
     def node_area(self) -> FloatArray:
         """Area that a node of each row stands for [m²], shape (n_z + 2,); zero on the edges."""
         return 2.0 * np.pi / self.grid.theta * self._strip
-
-    @property
-    def _strip(self) -> FloatArray:
-        """The same over angle [m²/rad]."""
-        _, weights = self.form.quadrature(self.grid.z, self.geometry.length)
-        return np.concatenate([[0.0], weights * self.geometry.bore_radius, [0.0]])
 
     @property
     def form_gap(self) -> FloatArray:
@@ -155,13 +157,7 @@ class BushingJoint:
         return Touch(self.roughness, self.table, self.contact, self.liner, size.clearance, size.bore_radius)
 
     def data(self, wear: FloatArray | None = None) -> BushingData:
-        """Return the data of the kernels.
-
-        Parameters
-        ----------
-        wear
-            Wear depth at the nodes [m], shape :attr:`field_shape`; none by default.
-        """
+        """Return the data of the kernels, worn at the nodes [m], shape :attr:`field_shape`."""
         depth = np.zeros(self.field_shape) if wear is None else np.ascontiguousarray(wear, dtype=np.float64)
         if depth.shape != self.field_shape:
             raise InputError(f"wear depth has shape {depth.shape}, the grid {self.field_shape}")
@@ -200,15 +196,7 @@ class BushingJoint:
 
 
 def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> JointMemory:
-    """Return the memory of a bushing that never touched.
-
-    Parameters
-    ----------
-    data
-        From :meth:`BushingJoint.data`.
-    entry_velocity
-        Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
-    """
+    """Return the memory of a bushing that never touched, or with entry velocities [m/s]."""
     memory = memory_of_surface(data.surface, data.wear.shape, data.clearance)
     if entry_velocity is not None:
         memory.entry_velocity[:] = entry_velocity
@@ -218,14 +206,8 @@ def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> J
 def pose_at(y: FloatArray, *, omega: float = 0.0, sign: float = 0.0) -> Record:
     """Return the pose of a trunnion, see ``kernels/joints/pose.py``.
 
-    Parameters
-    ----------
-    y
-        Attitude and its rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), shape (8,), SI units.
-    omega
-        Vane speed ω_v [rad/s].
-    sign
-        s' of Eq. 45, against the direction of rotation; used by the friction moment only.
+    ``y`` holds attitude and rates (e_x, e_y, φ_x, φ_y, ė_x, ė_y, φ̇_x, φ̇_y), ``omega`` is the vane speed ω_v
+    [rad/s], ``sign`` s' of Eq. 45, against the direction of rotation; the friction moment alone uses it.
     """
     pose = new_record(Pose)
     fill_pose(np.asarray(y, dtype=np.float64), float(omega), -float(sign), pose)
@@ -243,16 +225,8 @@ def joint_wrench(
 ) -> FloatArray:
     """Return the wrench (F_x, F_y, M_x, M_y, M_z) on the trunnion [N, N m], shape (5,), signs of the paper.
 
-    Parameters
-    ----------
-    data
-        From :meth:`BushingJoint.data`.
-    y, omega, sign
-        As for :func:`pose_at`.
-    entry_velocity
-        Remembered entry velocities [m/s], shape (n_z + 2, n_theta); none by default.
-    memory
-        From :func:`new_memory`, with entry velocities of its own; for many wrenches of one joint.
+    For ``y``, ``omega`` and ``sign`` see :func:`pose_at`. Remembered entry velocities [m/s] have the shape
+    (n_z + 2, n_theta); a memory from :func:`new_memory` has its own and serves many wrenches of one joint.
     """
     memory, out = memory or new_memory(data, entry_velocity), np.empty(5)
     found = memory.scratch.wrench

@@ -121,7 +121,7 @@ class Place:
     nodes: slice
 
 
-def table_of(
+def contact_table(
     contact: str,
     law: ContactLaw,
     shape: Shape,
@@ -130,7 +130,7 @@ def table_of(
     smoothing_width: float,
     liner: Liner | None = None,
 ) -> ContactTable:
-    """Return the contact table of a shape; arguments as for ``joints.contact_table``."""
+    """Return the contact table of a shape; a point contact has no smoothing, and is rigid below."""
     if contact == SURFACE:
         return surface_table(law, onset=onset, smoothing_width=smoothing_width, liner=liner)
     points = shape.points()
@@ -142,10 +142,7 @@ def table_of(
 def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
     """Return the places of the surfaces of clearance joints, joint by joint.
 
-    Raises
-    ------
-    Stopped
-        If the caller wants to stop: a surface of a fine grid takes a tenth of a second.
+    Raises ``Stopped`` if the caller wants to stop: a surface of a fine grid takes a tenth of a second.
     """
     found: list[Place] = []
     for joint, clearance in enumerate(clearances):
@@ -159,21 +156,10 @@ def places(clearances: Sequence[Clearance]) -> tuple[Place, ...]:
 def assemble(
     clearances: Sequence[Clearance], wear: FloatArray | None = None, where: Sequence[Place] | None = None
 ) -> SurfaceData:
-    """Return the data of the kernels of ``kernels/joints/surface``.
+    """Return the data of the kernels of ``kernels/joints/surface``, for clearance joints in their order.
 
-    Parameters
-    ----------
-    clearances
-        One for each clearance joint, in their order.
-    wear
-        Wear depth at all nodes [m], shape (n_nodes,); none by default.
-    where
-        From :func:`places`, where the caller has it.
-
-    Raises
-    ------
-    Stopped
-        If the caller wants to stop.
+    ``wear`` is the depth at all nodes [m], shape (n_nodes,); ``where`` from :func:`places`, where the caller
+    has it. Raises ``Stopped`` if the caller wants to stop.
     """
     where = places(clearances) if where is None else where
     data = join(where, clearances, wear)

@@ -44,17 +44,7 @@ class Drop:
 
 
 def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:
-    """Throw a shaft against its bushing.
-
-    Parameters
-    ----------
-    joint
-        The bushing.
-    mass
-        Mass of the shaft [kg].
-    speed
-        Speed at the onset of contact [m/s].
-    """
+    """Throw a shaft of a mass [kg] against its bushing with a speed at the onset of contact [m/s]."""
     from scipy.integrate import DOP853
 
     data = replace(joint, friction=replace(joint.friction, coefficient=0.0)).data()
@@ -102,14 +92,7 @@ def onset_eccentricity(joint: BushingJoint) -> float:
 def design_speed(joint: BushingJoint, *, mass: float, pressure: float) -> float:
     """Return the speed at the onset with which a shaft would reach a pressure without damping [m/s].
 
-    Parameters
-    ----------
-    joint
-        The bushing, touching over its surface.
-    mass
-        Mass of the shaft [kg].
-    pressure
-        Pressure at the deepest line [Pa].
+    The mass is in kg; the pressure [Pa] is that at the deepest line of a contact over the surface.
     """
     deepest = joint.geometry.clearance - undamped_depth(joint.table, pressure) * joint.roughness
     energy = stored_energy(joint, deepest) - stored_energy(joint, onset_eccentricity(joint))

@@ -52,23 +52,9 @@ def expanded(
     casing: Casing | None = None,
     key: str = "joint.clearance",
 ) -> Cylinder:
-    """Return the dimensions at the temperatures of a run.
+    """Return the dimensions at free thermal strains αΔT [1], for a bonded bushing with its casing.
 
-    Parameters
-    ----------
-    geometry
-        Dimensions at assembly.
-    trunnion, bushing
-        Free thermal strains αΔT [1].
-    casing
-        What the bushing is bonded into; None for a free one.
-    key
-        What a refusal is about.
-
-    Raises
-    ------
-    InputError
-        There is no clearance left.
+    Raises ``InputError``, about ``key``, where there is no clearance left.
     """
     radius = geometry.radius * (1.0 + trunnion)
     bore = geometry.bore_radius * (1.0 + bushing) if casing is None else _bonded(geometry, bushing, casing)

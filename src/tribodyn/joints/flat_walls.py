@@ -16,15 +16,9 @@ _FAR: Final = 1.0e3
 def resting(shape: FlatWalls, loads: FloatArray) -> FloatArray:
     """Return displacement and rotation of a smooth, rigid shaft that loads hold against flat walls, (n, 6).
 
+    Loads are forces [N] and moments [N m] about its middle, shape (n, 6); those along the axis do not count.
     It goes as far as the walls let it, and only as far as the loads push it: the point of all allowed ones
     that is next to one far away in the direction of the loads, by the active set of Lawson and Hanson (1974).
-
-    Parameters
-    ----------
-    shape
-        The walls.
-    loads
-        Forces [N] and moments [N m] about its middle, shape (n, 6); those along the axis do not count.
     """
     from scipy.optimize import nnls
 

@@ -91,12 +91,7 @@ class Form:
         """Return ``n`` points along the axis and their weights [m], shape (n,) each, increasing.
 
         Gauss-Legendre over the length; where chamfers make corners, over each piece, with a quarter of the
-        points, two at least, in each chamfer.
-
-        Raises
-        ------
-        InputError
-            There are too few points for that.
+        points, two at least, in each chamfer. Raises ``InputError`` where there are too few points for that.
         """
         half, corner = 0.5 * length, 0.5 * length - self.chamfer_length
         if self.chamfer_length == 0.0:

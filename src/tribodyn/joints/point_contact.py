@@ -13,7 +13,7 @@ Both are multiplied by 1 + a δ̇/δ̇₋ with the damping factor a of the case.
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
@@ -25,37 +25,18 @@ from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
+from tribodyn.joints.shapes.surface import Points
 
 INTERVALS: Final = 4096
 _ITERATIONS: Final = 8
 """Far from the branch point at −1/e: the argument is above −2/e²."""
 
 
-class Cylinders(Protocol):
-    """Demands of a point contact on the geometry of a bushing."""
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance c [m]."""
-
-    @property
-    def radius(self) -> float:
-        """Radius r_j of the trunnion [m]."""
-
-    @property
-    def bore_radius(self) -> float:
-        """Radius r_b of the bushing [m]."""
-
-    @property
-    def length(self) -> float:
-        """Length l_z of the bushing [m]."""
-
-
 Curve = tuple[FloatArray, FloatArray]
 """Force of the whole bushing [N] and its slope [N/m] over penetration."""
 
 
-def lankarani_nikravesh(depth: FloatArray, modulus: float, cylinders: Cylinders) -> Curve:
+def lankarani_nikravesh(depth: FloatArray, modulus: float, cylinders: Points) -> Curve:
     """Return force and slope at penetrations ``depth`` [m], shape (n,); ``modulus`` is composite [Pa]."""
     radius = cylinders.radius * cylinders.bore_radius / cylinders.clearance
     stiffness = 4.0 / 3.0 * modulus * math.sqrt(radius)
@@ -63,7 +44,7 @@ def lankarani_nikravesh(depth: FloatArray, modulus: float, cylinders: Cylinders)
     return stiffness * depth * root, 1.5 * stiffness * root
 
 
-def johnson(depth: FloatArray, modulus: float, cylinders: Cylinders) -> Curve:
+def johnson(depth: FloatArray, modulus: float, cylinders: Points) -> Curve:
     """Return force and slope at penetrations ``depth`` [m], shape (n,); ``modulus`` is composite [Pa].
 
     With x = f/(4πEc) the formula is x ln(ex) = −δ/4c, solved by the Lambert W function: ln(ex) = W₋₁(−eδ/4c).
@@ -87,40 +68,13 @@ def _lower_lambert(a: FloatArray) -> FloatArray:
     return np.asarray(w)
 
 
-POINT_CONTACTS: dict[str, Callable[[FloatArray, float, Cylinders], Curve]] = {
+POINT_CONTACTS: dict[str, Callable[[FloatArray, float, Points], Curve]] = {
     "point-lankarani-nikravesh": lankarani_nikravesh,
     "point-johnson": johnson,
 }
 SURFACE: Final = "surface"
 CONTACTS: Final = (SURFACE, *POINT_CONTACTS)
 """Kinds of contact between a trunnion and its bushing."""
-
-
-def contact_table(
-    contact: str,
-    law: ContactLaw,
-    cylinders: Cylinders,
-    *,
-    onset: float,
-    smoothing_width: float,
-    liner: Liner | None = None,
-) -> ContactTable:
-    """Return the data of a contact law for the kernels of a joint.
-
-    Parameters
-    ----------
-    contact
-        One of :data:`CONTACTS`.
-    law, cylinders
-        As for :func:`point_table`.
-    onset, smoothing_width
-        As for :func:`tribodyn.contact.tabulate`; a point contact has neither.
-    liner
-        What the asperities stand on, if it is not rigid; below a point contact it is.
-    """
-    if contact == SURFACE:
-        return surface_table(law, onset=onset, smoothing_width=smoothing_width, liner=liner)
-    return point_table(contact, law, cylinders)
 
 
 # Runs that differ in a clearance or a load share a table, which takes a twentieth of a run.
@@ -130,26 +84,18 @@ _kept = lru_cache(maxsize=16)(tabulate)
 def surface_table(
     law: ContactLaw, *, onset: float, smoothing_width: float, liner: Liner | None
 ) -> ContactTable:
-    """Tabulate the pressure over the surface; arguments as for :func:`contact_table`."""
+    """Tabulate the pressure over the surface, whose asperities stand on a liner or on what is rigid."""
     # A law from elsewhere may be more than its fields say, and its class another than a run ago.
     make = _kept if type(law) in OURS else tabulate
     table = make(law, onset=onset, smoothing_width=smoothing_width)
     return table if liner is None else lined(table, liner.stiffness * law.pair.roughness_rms)
 
 
-def point_table(name: str, law: ContactLaw, cylinders: Cylinders, points: int = 2) -> ContactTable:
+def point_table(name: str, law: ContactLaw, cylinders: Points, points: int = 2) -> ContactTable:
     """Tabulate the force of one point over (c − ρ)/σ, from a penetration by the whole clearance to none.
 
-    Parameters
-    ----------
-    name
-        One of :data:`POINT_CONTACTS`.
-    law
-        Gives the materials, the damping factor and, at its design pressure, the restitution.
-    cylinders
-        Dimensions of the joint.
-    points
-        Number of points that share its force, the ends of a bushing.
+    The law gives the materials, the damping factor and, at its design pressure, the restitution; ``points``
+    share the force of the joint, such as the ends of a bushing.
     """
     if law.factor.dashpot:
         raise InputError(

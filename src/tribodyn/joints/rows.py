@@ -26,14 +26,7 @@ MOST: Final = (512, 128)
 
 
 def resolving(clearance: float, roughness: float) -> tuple[int, int]:
-    """Return the numbers of nodes around and along that resolve the contact.
-
-    Parameters
-    ----------
-    clearance
-        Radial clearance c at the temperatures of the run [m].
-    roughness
-        Combined rms roughness σ [m].
+    """Return the numbers of nodes around and along that resolve the contact at a clearance c and a σ [m].
 
     Examples
     --------
@@ -57,15 +50,7 @@ Rows = NDArray[np.void]
 
 
 def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
-    """Return the rows of all surfaces, their nodes counted from the first of all.
-
-    Parameters
-    ----------
-    surfaces
-        Of each surface the rows, and its first node.
-    nodes
-        All nodes, see ``kernels/joints/surface/data.py``.
-    """
+    """Return the rows of all surfaces, given with their first nodes, counted from the first of all."""
     rows, at = np.zeros(sum(own.size for own, _ in surfaces), dtype=kernel.Row), 0
     for own, first in surfaces:
         rows[at : at + own.size] = own

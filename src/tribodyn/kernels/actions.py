@@ -144,20 +144,10 @@ def add_terms(
     places: FloatArray,
     loads: FloatArray,
 ) -> None:
-    """Add terms to ``loads``.
+    """Add the terms ``first`` to ``last`` to the components ``loads``, as the mechanism counts them.
 
-    Parameters
-    ----------
-    signals
-        What they follow.
-    terms, first, last
-        Records named above, and which of them.
-    direction
-        Of the motion that some terms oppose.
-    places
-        Of each quantity that signals follow its value, and the value whose piece holds, shape (n, 2).
-    loads
-        Components, as the mechanism counts them.
+    ``direction`` is that of the motion that some oppose; ``places`` (n, 2) hold of each quantity that signals
+    follow its value, and the value whose piece holds.
     """
     for i in range(first, last):
         value, _ = product(signals, terms[i], places, NONE)
@@ -195,18 +185,10 @@ def add_following(
 def oppose(
     size: float, growth: float, u: FloatArray, slip: float, force: FloatArray, slope: FloatArray
 ) -> None:
-    """Add a force of a given size against a velocity.
+    """Add a force of a given size [N] against a velocity (n,), and its derivative (n, n).
 
-    F = −size u/√(u² + slip²), which is smooth through rest.
-
-    Parameters
-    ----------
-    size, growth
-        Of the force [N], and its derivative in the speed [N s/m].
-    u, slip
-        Velocity [m/s], shape (n,), and the speed below which the force fades [m/s].
-    force, slope
-        What it is added to, shape (n,), with its derivative in ``u``, shape (n, n).
+    F = −size u/√(u² + slip²), which is smooth through rest; ``growth`` is the derivative of its size in the
+    speed [N s/m].
     """
     speed = norm(u)
     square = speed * speed + slip * slip

@@ -6,16 +6,9 @@ from tribodyn.kernels.jit import entry
 
 @entry
 def solve_in_place(matrix: FloatMatrix, rhs: FloatMatrix, first: int, last: int) -> None:
-    """Solve ``matrix x = rhs`` by Gaussian elimination with partial pivoting.
+    """Solve ``matrix x = rhs`` by Gaussian elimination with partial pivoting; the matrix is destroyed.
 
-    Parameters
-    ----------
-    matrix
-        Square matrix, shape (n, n); destroyed.
-    rhs
-        Right-hand sides as columns, shape (n, m).
-    first, last
-        Those from column ``first`` up to, not including, ``last`` are replaced by the solution.
+    Right-hand sides (n, m) from column ``first`` up to, not including, ``last`` become the solution.
     """
     n = matrix.shape[0]
     for k in range(n):

@@ -16,14 +16,9 @@ from tribodyn.kernels.jit import entry, inlined
 
 @inlined
 def interval(position: float, last: float) -> tuple[float, float]:
-    """Return the number of the interval and the distance from its lower node in steps.
+    """Return the number of an interval and the distance from its lower node in steps.
 
-    Parameters
-    ----------
-    position
-        Steps from one step below the first node of the table.
-    last
-        Number of the interval above the table; see ``ContactTable.cubics``.
+    The position counts steps from one below the first node; ``last`` is the interval above the table.
     """
     inside = position if position > 0.0 else 0.0  # not max(): NaN must not become an index
     inside = inside if inside < last else last

@@ -65,16 +65,8 @@ class Peaks(NamedTuple):
 def new_peaks(n: int, *, sharp: int = 0, reversals: int = 0, impact_time: float = 0.0) -> Peaks:
     """Return books of ``n`` quantities that nothing has been noted in.
 
-    Parameters
-    ----------
-    n
-        How many quantities are watched.
-    sharp
-        How many of them, the first ones, have sharp peaks.
-    reversals
-        How many reversals the run has.
-    impact_time
-        How long impacts last after the start and after each reversal [s].
+    The first ``sharp`` of them have sharp peaks. Impacts last ``impact_time`` [s] after the start and after
+    each of the reversals.
     """
     course = new_record(Course)
     course.stretch, course.impact_time, course.sharp = -1, impact_time, sharp

@@ -23,20 +23,11 @@ FEWEST_ACROSS = 4
 
 
 def rows_of_face(n_z: int, width: float, length: float) -> int:
-    """Return the number of rows that resolve an end face as ``n_z`` resolve the barrel.
+    """Return the number of rows that resolve an end face of a width as ``n_z`` do a barrel of a length [m].
 
     The shaft tilts no further than the barrel lets it. So the gap changes across a face and along the barrel
     as their widths do, and the numbers of rows that resolve it go with the roots of these, see
     ``joints/rows.py``.
-
-    Parameters
-    ----------
-    n_z
-        Rows of the barrel.
-    width
-        Outer radius of the face less the inner one [m].
-    length
-        Of the barrel [m].
 
     Examples
     --------

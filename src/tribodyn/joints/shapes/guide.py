@@ -22,8 +22,13 @@ from tribodyn.joints.shapes.rings import across
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.tilt import WHOLE
 
-FEWEST: Final = 4
-"""Rows across a wall, however narrow it is."""
+_FEWEST: Final = 4
+"""Nodes across a wall, however narrow it is."""
+
+
+def rows_across(around: int) -> int:
+    """Return the nodes across a wall: those around a block are shared out among four."""
+    return max(around // 4, _FEWEST)
 
 
 @dataclass(frozen=True)
@@ -106,16 +111,13 @@ class Guide:
         return replace(self, clearance=most, grown=tuple(hot(wall.distance) - most for wall in self.walls))
 
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
-        """Return the walls; nodes around the block are shared out among four of them."""
-        n_across, n_z = max(grid[0] // 4, FEWEST), grid[1]
-        return tuple(
-            self._wall(wall, gap, n_across, n_z) for wall, gap in zip(self.walls, self.gaps, strict=True)
-        )
+        """Return the walls."""
+        return tuple(self._wall(wall, gap, grid) for wall, gap in zip(self.walls, self.gaps, strict=True))
 
-    def _wall(self, wall: Wall, gap: float, n_across: int, n_z: int) -> Surface:
+    def _wall(self, wall: Wall, gap: float, grid: tuple[int, int]) -> Surface:
         way, half = np.subtract(wall.last, wall.first) / wall.width, 0.5 * self.length
-        s, strip = across(0.0, wall.width, n_across)
-        z, weight = across(-half, half, n_z)
+        s, strip = across(0.0, wall.width, rows_across(grid[0]))
+        z, weight = across(-half, half, grid[1])
         place = wall.first + s[:, None] * way
         position = np.column_stack([np.tile(place, (z.size, 1)), np.repeat(z, s.size)])
         normal, area = np.tile(wall.normal, (len(position), 1)), np.outer(weight, strip).ravel()
@@ -154,7 +156,7 @@ class Guide:
         ]
         return np.array(found), np.tile(np.repeat(self.gaps, 2), 2)
 
-    def outline(self) -> tuple[FloatArray, FloatArray]:
+    def outlines(self) -> list[tuple[FloatArray, FloatArray]]:
         """Return the corners of its cross-section [m], and by how much a gap of one sets off those of walls.
 
         Shapes (n, 2); between walls that share no edge there is open space.
@@ -166,7 +168,7 @@ class Guide:
             else:
                 found += [(one.last, one.normal[:2]), (after.first, after.normal[:2])]
         points, ways = zip(*found, strict=True)
-        return np.array(points), np.array(ways)
+        return [(np.array(points), np.array(ways))]
 
     def room(self) -> FloatArray:
         """Return the corners of the area in which the middle of an upright block can be [m], shape (n, 2)."""

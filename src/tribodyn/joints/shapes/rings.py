@@ -52,20 +52,10 @@ class Rings:
     def surface(
         self, name: str, along: tuple[str, FloatArray], gap: float | FloatArray, n_theta: int, tilt: float
     ) -> Surface:
-        """Return the surface.
+        """Return the surface with nodes at the angles 2π i/n_theta about the axis.
 
-        Parameters
-        ----------
-        name
-            Of the surface.
-        along
-            Name and values of the coordinate across the rings, shape (n,).
-        gap
-            As drawn [m], everywhere or of each ring, shape (n,).
-        n_theta
-            Nodes of a ring; theirs are the angles 2π i/n_theta about the axis.
-        tilt
-            What turning does to the gaps.
+        ``along`` names the coordinate across the rings, with its values (n,); the gap is as drawn [m],
+        everywhere or of each ring (n,).
         """
         theta = 2.0 * np.pi * np.arange(n_theta) / n_theta
         around = np.stack([portable.cos(theta), portable.sin(theta), np.zeros(n_theta)])

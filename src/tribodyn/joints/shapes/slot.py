@@ -10,7 +10,7 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints.shapes.guide import FEWEST
+from tribodyn.joints.shapes.guide import rows_across
 from tribodyn.joints.shapes.mesh import patches
 from tribodyn.joints.shapes.rings import across
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
@@ -43,23 +43,14 @@ class Slot:
 
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the two walls, with nodes up to where a pin that touches stands off by the clearance."""
+        return tuple(self._wall(name, side, grid) for name, side in WALLS.items())
+
+    def _wall(self, name: str, side: float, grid: tuple[int, int]) -> Surface:
         edge = self.radius * float(portable.sin(portable.acos(1.0 - self.clearance / self.radius)))
-        s, strip = across(-edge, edge, max(grid[0] // 4, FEWEST))
+        s, strip = across(-edge, edge, rows_across(grid[0]))
         x, weight = across(-0.5 * self.length, 0.5 * self.length, grid[1])
         angle, area = portable.asin(s / self.radius), np.outer(weight, strip).ravel()
         rise = self.radius * portable.cos(angle)
-        return tuple(self._wall(name, side, x, angle, rise, s, area) for name, side in WALLS.items())
-
-    def _wall(
-        self,
-        name: str,
-        side: float,
-        x: FloatArray,
-        angle: FloatArray,
-        rise: FloatArray,
-        s: FloatArray,
-        area: FloatArray,
-    ) -> Surface:
         position = np.column_stack([np.repeat(x, s.size), *np.tile([side * rise, side * s], x.size)])
         normal = np.tile([0.0, side, 0.0], (area.size, 1))
         return Surface(
@@ -83,6 +74,12 @@ class Slot:
         half = 0.5 * self.length
         found = [[0.0, y, 0.0, 0.0, 0.0, y * x] for y in WALLS.values() for x in (-half, half)]
         return np.array(found), np.full(4, self.clearance)
+
+    def outlines(self) -> list[tuple[FloatArray, FloatArray]]:
+        """Return the same as a guide for plates in the places of its walls."""
+        half, r = 0.5 * self.length, self.radius
+        plate = np.array([[-half, r], [half, r], [half, 1.5 * r], [-half, 1.5 * r]])
+        return [(plate * [1.0, side], np.tile([0.0, side], (4, 1))) for side in WALLS.values()]
 
     def room(self) -> FloatArray:
         """Return the corners of the room across; along the pin it is free [m], shape (4, 2)."""

@@ -191,32 +191,22 @@ def _theta_faces(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> 
     lowest = math.inf
     for i in range(n):
         c, s = fields.columns[i].cos_face, fields.columns[i].sin_face
-        taken = 0.5 * fields.columns[i].arm_face ** 2 / film.constants.radius
+        room, taken = film.constants.clearance, 0.5 * fields.columns[i].arm_face ** 2 / film.constants.radius
         for j in range(rows):
             weight = fields.rows[j].weight
             if alike and j > 0:
-                fields.cells[i, j].k_theta = weight * fields.cells[i, 0].k_theta
-                fields.cells[i, j].dk_theta = weight * fields.cells[i, 0].dk_theta
-                fields.cells[i, j].wedge = weight * fields.cells[i, 0].wedge
-                fields.cells[i, j].d_wedge = weight * fields.cells[i, 0].d_wedge
-                fields.cells[i, j].drag = weight * fields.cells[i, 0].drag
-                fields.cells[i, j].d_drag = weight * fields.cells[i, 0].d_drag
+                cell, first = fields.cells[i, j], fields.cells[i, 0]
+                cell.k_theta, cell.dk_theta = weight * first.k_theta, weight * first.dk_theta
+                cell.wedge, cell.d_wedge = weight * first.wedge, weight * first.d_wedge
+                cell.drag, cell.d_drag = weight * first.drag, weight * first.d_drag
                 continue
-            gap = (
-                film.constants.clearance
-                + fields.rows[j].a * c
-                + fields.rows[j].b * s
-                - taken
-                + film.wear_theta[i, j + 1]
-            )
+            gap = room + fields.rows[j].a * c + fields.rows[j].b * s - taken + film.wear_theta[i, j + 1]
             lowest = min(lowest, gap) if gap == gap else -math.inf
             k, dk, wedge, d_wedge, drag, d_drag = theta_face(film, gap)
-            fields.cells[i, j].k_theta = weight * shape * k
-            fields.cells[i, j].dk_theta = weight * shape * dk
-            fields.cells[i, j].wedge = weight * wedge
-            fields.cells[i, j].d_wedge = weight * d_wedge
-            fields.cells[i, j].drag = weight * drag
-            fields.cells[i, j].d_drag = weight * d_drag
+            cell = fields.cells[i, j]
+            cell.k_theta, cell.dk_theta = weight * shape * k, weight * shape * dk
+            cell.wedge, cell.d_wedge = weight * wedge, weight * d_wedge
+            cell.drag, cell.d_drag = weight * drag, weight * d_drag
     return lowest
 
 
@@ -233,32 +223,19 @@ def _z_faces(film: FilmData, fields: FilmFields, rows: int, half: bool, alike: b
     lowest = math.inf
     for i in range(n):
         c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
-        taken = 0.5 * fields.columns[i].arm_node ** 2 / film.constants.radius
+        room, taken = film.constants.clearance, 0.5 * fields.columns[i].arm_node ** 2 / film.constants.radius
         for j in range(faces):
             if alike and j > 0:
-                fields.z_faces[i, j].k_z = fields.z_faces[i, 0].k_z
-                fields.z_faces[i, j].dk_z = fields.z_faces[i, 0].dk_z
-                fields.z_faces[i, j].couette = fields.z_faces[i, 0].couette
-                fields.z_faces[i, j].d_couette = fields.z_faces[i, 0].d_couette
+                fields.z_faces[i, j] = fields.z_faces[i, 0]
                 continue
-            gap = (
-                film.constants.clearance
-                + fields.rows[j].face_a * c
-                + fields.rows[j].face_b * s
-                - taken
-                + film.wear_z[i, j]
-            )
+            gap = room + fields.rows[j].face_a * c + fields.rows[j].face_b * s - taken + film.wear_z[i, j]
             lowest = min(lowest, gap) if gap == gap else -math.inf
             k, dk, couette, d_couette = z_face(film, gap)
-            fields.z_faces[i, j].k_z = shape * k
-            fields.z_faces[i, j].dk_z = shape * dk
-            fields.z_faces[i, j].couette = couette
-            fields.z_faces[i, j].d_couette = d_couette
+            face = fields.z_faces[i, j]
+            face.k_z, face.dk_z, face.couette, face.d_couette = shape * k, shape * dk, couette, d_couette
         if half:
-            fields.z_faces[i, rows].k_z = 0.0
-            fields.z_faces[i, rows].dk_z = 0.0
-            fields.z_faces[i, rows].couette = 0.0
-            fields.z_faces[i, rows].d_couette = 0.0
+            face = fields.z_faces[i, rows]
+            face.k_z = face.dk_z = face.couette = face.d_couette = 0.0
     return lowest
 
 
@@ -268,19 +245,13 @@ def _nodes(film: FilmData, fields: FilmFields, rows: int, alike: bool) -> float:
     lowest = math.inf
     for i in range(film.columns.size):
         c, s = fields.columns[i].cos_node, fields.columns[i].sin_node
-        taken = 0.5 * fields.columns[i].arm_node ** 2 / film.constants.radius
+        room, taken = film.constants.clearance, 0.5 * fields.columns[i].arm_node ** 2 / film.constants.radius
         for j in range(rows):
             if alike and j > 0:
                 fields.cells[i, j].contact = fields.rows[j].weight * fields.cells[i, 0].contact
                 fields.cells[i, j].d_contact = fields.rows[j].weight * fields.cells[i, 0].d_contact
                 continue
-            gap = (
-                film.constants.clearance
-                + fields.rows[j].a * c
-                + fields.rows[j].b * s
-                - taken
-                + film.wear_node[i, j + 1]
-            )
+            gap = room + fields.rows[j].a * c + fields.rows[j].b * s - taken + film.wear_node[i, j + 1]
             lowest = min(lowest, gap) if gap == gap else -math.inf
             _, slope, bend = mean_gap(film.table, film.constants.roughness, gap)
             fields.cells[i, j].contact = fields.rows[j].weight * slope

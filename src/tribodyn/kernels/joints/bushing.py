@@ -66,19 +66,7 @@ def _look(joint: BushingData, memory: JointMemory, pose: Record) -> None:
 
 @entry
 def wrench(joint: BushingData, memory: JointMemory, pose: Annotated[Record, Pose], out: FloatArray) -> None:
-    """Fill ``out`` (6,) with the wrench on the trunnion.
-
-    Parameters
-    ----------
-    joint
-        Constants of the joint.
-    memory
-        Its memory, whose scratch alone is changed.
-    pose
-        Where the trunnion is and how it moves, see ``kernels/joints/pose.py``.
-    out
-        The wrench [N, N m], shape (6,).
-    """
+    """Fill ``out`` (6,) with the wrench on the trunnion [N, N m]; only the scratch of the memory changes."""
     scratch = memory.surface.scratch
     _look(joint, memory, pose)
     surfaces.fill_wrench(joint.surface, _JOINT, memory.surface)
@@ -94,15 +82,7 @@ def wrench_and_jacobian(
     out: FloatArray,
     jacobian: FloatMatrix,
 ) -> None:
-    """Fill ``out`` with the wrench and ``jacobian`` with its derivatives.
-
-    Parameters
-    ----------
-    joint, memory, pose, out
-        As for :func:`wrench`.
-    jacobian
-        Its derivatives in displacement, tilt, velocity and rates of turning, shape (6, 12).
-    """
+    """Fill ``out`` with the wrench and ``jacobian`` (6, 12) with its derivatives."""
     scratch = memory.surface.scratch
     _look(joint, memory, pose)
     surfaces.fill_wrench_and_derivatives(joint.surface, _JOINT, memory.surface)
@@ -125,7 +105,7 @@ def wrench_and_jacobian(
 
 @entry
 def report(joint: BushingData, memory: JointMemory, pose: Annotated[Record, Pose]) -> None:
-    """Fill the report in ``memory.scratch``, moments right-handed; arguments as for :func:`wrench`."""
+    """Fill the report in ``memory.scratch``, moments right-handed."""
     _look(joint, memory, pose)
     surfaces.fill_report(joint.surface, _JOINT, memory.surface)
     scratch, found, out = memory.surface.scratch, memory.surface.reports[0], memory.scratch.report

@@ -153,7 +153,7 @@ def _fill_wrench(scratch: Record, oil: Record) -> None:
 @kernel
 def _fill_derivatives(chart: FloatArray, scratch: Record) -> None:
     """Fill the derivatives of normal and friction in (d, φ) and (v, φ̇) from those of the film (5, 9)."""
-    rows, columns = (0, 1, 3, 4), (0, 1, 3, 4)
+    rows = (0, 1, 3, 4)
     for matrix in (
         scratch.normal_place,
         scratch.normal_rate,
@@ -163,7 +163,7 @@ def _fill_derivatives(chart: FloatArray, scratch: Record) -> None:
     ):
         clear(matrix)
     for m in range(4):
-        column, sign = columns[m], -1.0 if m == 3 else 1.0
+        column, sign = rows[m], -1.0 if m == 3 else 1.0
         for k in range(4):
             both = -sign if k == 3 else sign
             scratch.normal_place[rows[k], column] = both * chart[k, m]

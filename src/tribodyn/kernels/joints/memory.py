@@ -45,17 +45,7 @@ class JointMemory(NamedTuple):
 
 
 def new_memory(data: SurfaceData, field_shape: tuple[int, ...], clearance: float) -> JointMemory:
-    """Return the memory of a joint that never touched.
-
-    Parameters
-    ----------
-    data
-        Its surface.
-    field_shape
-        Shape (n_z + 2, n_theta) of a field over the nodes.
-    clearance
-        Largest gap that it can have [m].
-    """
+    """Return the memory of a joint that never touched, whose gaps are at most ``clearance`` [m]."""
     surface, extremes = new_surface_memory(data), new_record(Extremes)
     extremes.separation_least = clearance
     return JointMemory(

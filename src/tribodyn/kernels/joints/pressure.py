@@ -65,35 +65,9 @@ def node_pressure(
     approach: float,
     entry_velocity: float,
 ) -> tuple[float, float, float, float]:
-    """Return the pressures at a node and the derivatives of the total.
+    """Return P_k and P_c [Pa] at a node, ∂P_c/∂h [Pa/m] and ∂P_c/∂δ̇ [Pa s/m].
 
-    Parameters
-    ----------
-    table
-        Tabulated contact law.
-    roughness
-        σ [m].
-    minimum_entry_velocity
-        v_min [m/s].
-    clip
-        1 if the total pressure must not be tensile.
-    gap
-        Gap between the mean planes [m].
-    approach
-        Approach speed δ̇ = −∂h/∂t [m/s].
-    entry_velocity
-        Approach speed at which contact began [m/s]; 0 where the node has no memory.
-
-    Returns
-    -------
-    rigid : float
-        P_k [Pa].
-    total : float
-        P_c [Pa].
-    d_gap : float
-        ∂P_c/∂h [Pa/m].
-    d_approach : float
-        ∂P_c/∂δ̇ [Pa s/m].
+    The gap is that of the mean planes [m]; the entry velocity [m/s] is 0 where the node has no memory.
     """
     rigid, d_rigid, damping, d_damping = pressure_and_damping(table, gap / roughness)
     reference = reference_velocity(entry_velocity, approach, minimum_entry_velocity)
@@ -115,23 +89,7 @@ def node_pressure(
 def fill_pressures(
     cubics: FloatArray, v_min: float, clip: float, most: float, work: FloatArray, n: int
 ) -> None:
-    """Fill ``RIGID``, ``DAMPING`` and ``PRESSURE`` of the ``n`` nodes in the list.
-
-    Parameters
-    ----------
-    cubics
-        Coefficients of the contact table.
-    v_min
-        Lower bound of entry velocities [m/s].
-    clip
-        1 if the total pressure must not be tensile.
-    most
-        Largest pressure [Pa].
-    work
-        Columns of the list.
-    n
-        Number of nodes.
-    """
+    """Fill ``RIGID``, ``DAMPING`` and ``PRESSURE``, at most ``most`` [Pa], of ``n`` nodes in the list."""
     for k in range(0, n, WIDTH):
         x = load(work, FRACTION + k)
         k_0, k_1, k_2, k_3, c_0, c_1, c_2, c_3 = rows(cubics, load(work, INTERVAL + k))

@@ -35,26 +35,12 @@ def follow(
     matrix: FloatMatrix,
     motion: FloatMatrix,
 ) -> int:
-    """Lead the bodies through times; return the number of the first at which joints do not close, or of none.
+    """Lead bodies through times; return the number of the first at which joints do not close, or of none.
 
-    Velocities are those of the drives; freedoms that are left are at rest.
-
-    Parameters
-    ----------
-    parts, now, signals, pattern, blocks
-        The mechanism, its bodies where they are just before the first time.
-    times
-        Rising [s], shape (n_t,).
-    first
-        Number of the first of these.
-    most
-        Largest residual from which joints are closed at once, in units of the size or radians.
-    closed
-        Largest residual of joints that close, in these units.
-    matrix
-        Work space, shape (n_rows, n_rows).
-    motion
-        Is filled with states of the bodies, angular velocities in global axes, shape (n_t, 13 n_bodies).
+    Velocities are those of the drives; freedoms that are left are at rest. Bodies are where they are just
+    before time ``first``. Joints are closed at once up to a residual ``most``, in units of the size or
+    radians, and have closed below ``closed``. ``matrix`` (n_rows, n_rows) is work space; ``motion`` (n_t, 13
+    n_bodies) is filled with states of the bodies, angular velocities in global axes.
     """
     wait = 0
     for k in range(first, times.size):

@@ -229,12 +229,7 @@ def set_up(data: VsvData, t: float, y: FloatArray, memory: VsvMemory) -> float:
 def solve_accelerations(data: VsvData, y: FloatArray, memory: VsvMemory) -> float:
     """Solve for the clearance accelerations with the joint wrench in ``memory.scratch``.
 
-    Where the collar would have to pull, it lets go (F_cz = 0).
-
-    Returns
-    -------
-    float
-        F_cz [N].
+    Where the collar would have to pull, it lets go (F_cz = 0). Returns F_cz [N].
     """
     mechanism = data.mechanism
     fill_forces(data, y, memory)
@@ -301,21 +296,13 @@ def fill_load_gradient(
         t_px = test[PHI_X, 1 + i]
         t_py = test[PHI_Y, 1 + i]
         t_v = test[THETA_V, 1 + i]
-        d_omega = (
-            t_x * dw[0, 8]
-            + t_y * dw[1, 8]
-            + t_px * sec2_x * dw[2, 8]
-            + t_py * sec2_y * dw[3, 8]
-            + t_v * dw[4, 8]
-        )
-        for k in range(8):
-            total = (
-                t_x * dw[0, k]
-                + t_y * dw[1, k]
-                + t_px * sec2_x * dw[2, k]
-                + t_py * sec2_y * dw[3, k]
-                + t_v * dw[4, k]
-            )
+        d_omega = 0.0
+        for k in range(8, -1, -1):
+            total = t_x * dw[0, k] + t_y * dw[1, k] + t_px * sec2_x * dw[2, k] + t_py * sec2_y * dw[3, k]
+            total += t_v * dw[4, k]
+            if k == 8:
+                d_omega = total
+                continue
             if k >= 4:
                 total += free_slip * d_omega * motion[THETA_V, k - 3]
             gradient[i, 1 + k] = total

@@ -86,20 +86,10 @@ def picture(t: float, y: FloatArray, data: VsvData, memory: VsvMemory, fields: F
 def kinetostatic_residual(
     t: float, y: FloatArray, data: VsvData, memory: VsvMemory, residual: FloatArray, jacobian: FloatMatrix
 ) -> None:
-    """Fill the generalised load that remains with q̇ = q̈ = 0, and its derivative.
+    """Fill the load (4,) [N, N m] that remains with q̇ = q̈ = 0, and its derivative (4, 4).
 
-    Parameters
-    ----------
-    t
-        Time [s]; the ideal motion at that time is included.
-    y
-        State with all velocities zero, shape (8,).
-    data, memory
-        As for ``rhs``.
-    residual
-        Generalised loads [N, N m], shape (4,).
-    jacobian
-        Derivative with the geometry of the rods held fixed, shape (4, 4).
+    All velocities of the state are zero; the ideal motion at the time is included. The geometry of the rods
+    is held fixed in the derivative.
     """
     accelerations_and_gradient(data, t, y, memory)
     for i in range(4):

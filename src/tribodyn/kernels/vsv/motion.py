@@ -76,13 +76,7 @@ SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
 
 @kernel
 def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArray) -> tuple[float, float]:
-    """Fill the motion table (N_ROWS, N_COLUMNS) at a motion of the crank and the state ``y`` (8,).
-
-    Returns
-    -------
-    tuple
-        sec² φ_x and sec² φ_y.
-    """
+    """Fill the motion table at a motion of the crank and a state (8,); return sec² φ_x and sec² φ_y."""
     clear(motion)
     tan_x, tan_y = tan(y[2]), tan(y[3])
     if mechanism.exact > 0.0:
@@ -90,11 +84,8 @@ def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArr
         fill_rods(mechanism, crank, (y[0], y[1], tan_x, tan_y), (y[4], y[5], y[6], y[7]), motion)
     else:
         fill_rods(mechanism, crank, CENTRED, CENTRED, motion)
-        for row in range(E_X):
-            for column in range(1, 5):
-                motion[row, column] = 0.0
-        for row in range(S1_X, S3_Z + 1):
-            for column in range(1, 5):
+        for row in range(S3_Z + 1):
+            for column in range(1, 5 if row < E_X or row >= S1_X else 1):
                 motion[row, column] = 0.0
         _fill_trunnion(mechanism, y, tan_x, tan_y, motion)
         for k in range(SHIFTED.size):
@@ -131,18 +122,7 @@ def _fill_trunnion(mechanism: Record, y: FloatArray, tan_x: float, tan_y: float,
 def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion: FloatArray) -> None:
     """Fill the rows of crank, drag link, ring and vane rotation from the closure.
 
-    Parameters
-    ----------
-    mechanism
-        Constants.
-    crank
-        Its motion.
-    place
-        e_x and e_y [m], tan φ_x and tan φ_y.
-    rates
-        Rates of the clearance coordinates e_x, e_y, φ_x and φ_y.
-    motion
-        The motion table, shape (N_ROWS, N_COLUMNS).
+    The place is e_x and e_y [m], tan φ_x and tan φ_y; rates are those of e_x, e_y, φ_x and φ_y.
     """
     theta_a, omega_a, alpha_a = crank
     e_x, e_y, tan_x, tan_y = place

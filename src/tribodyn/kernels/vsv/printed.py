@@ -144,13 +144,8 @@ def fill_printed_tests(mechanism: Record, motion: FloatArray, test: FloatArray) 
 @kernel
 def add_printed_entries(mechanism: Record, y: FloatArray, scratch: Record) -> None:
     """Add the printed extra terms of A_12, A_42, B_11 and B_41, and subtract the missing ones of B_41."""
-    motion, test, mass, load, angles = (
-        scratch.motion,
-        scratch.test,
-        scratch.mass,
-        scratch.load,
-        scratch.angles,
-    )
+    motion, test, angles = scratch.motion, scratch.test, scratch.angles
+    mass, load = scratch.mass, scratch.load
     m_2, m_3, m_v = mechanism.m_2, mechanism.m_3, mechanism.m_v
     s3_x, s3_y = test[O3_Y, 2], mechanism.l_4 * sin(motion[THETA_V, VALUE])
     mass[1, 1] += 0.5 * m_2 - m_3

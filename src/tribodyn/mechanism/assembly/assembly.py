@@ -138,16 +138,10 @@ class Assembly:
 
 
 def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
-    """Put a mechanism together as drawn.
+    """Put a mechanism together as drawn, worn at the nodes of all joints with clearance [m].
 
-    Joints with clearance are closed as if they were ideal, so that each shaft starts in the middle.
-
-    Parameters
-    ----------
-    model
-        The mechanism; findings that concern it alone are part of the result.
-    worn
-        Wear depth at the nodes of all joints with clearance [m], shape (n_nodes,); none by default.
+    Joints with clearance are closed as if they were ideal, so that each shaft starts in the middle. Findings
+    that concern the model alone are part of the result.
     """
     findings = list(model.loose())
     closed, open_joints, findings_if_ideal = _closed(model)
@@ -202,16 +196,9 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
 
 
 def _closed(model: Model) -> tuple[System, list[ModelError], list[ModelError]]:
-    """Close the joints as if they were ideal.
+    """Close the joints as if they were ideal; where not all close, the bodies are where they miss least.
 
-    Returns
-    -------
-    system
-        With the bodies where all joints close, or miss least.
-    findings
-        What does not close, whatever the clearances.
-    findings_if_ideal
-        What does not close but for the clearances.
+    Also returns what does not close, whatever the clearances, and what does not but for the clearances.
     """
     closed = System(model.as_drawn)
     found = closed.approach()

@@ -15,7 +15,7 @@ from tribodyn.contact.bulk import Bulk
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.joints import Friction
-from tribodyn.joints.clearances import Clearance, table_of
+from tribodyn.joints.clearances import Clearance, contact_table
 from tribodyn.joints.shapes import Ball, Cylinder, Guide, Mesh, Shape, Slot, Sphere
 from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
@@ -55,14 +55,7 @@ def _bearing(case: MechanismCase, name: str, keys: ClearanceKeys) -> Bearing:
 def material_of(case: MechanismCase, name: str, depth: float = 0.0) -> PairKeys | MechanismCase:
     """Return surfaces, contact law and wear of a joint at the temperature of its bushing.
 
-    Parameters
-    ----------
-    case
-        The mechanism.
-    name
-        Of a joint with clearance.
-    depth
-        Mean wear depth that has run its surfaces in [m].
+    A mean wear ``depth`` [m] has run its surfaces in.
     """
     keys = case.joints[name].real
     assert keys is not None
@@ -99,7 +92,7 @@ def _clearance(
     contact, surfaces = pair.contact, pair.surface_pair
     law = contact.law_of(surfaces)
     liner, shape = _liner(case, name, keys), _shape(case, name, joint, keys)
-    table = table_of(
+    table = contact_table(
         keys.contact,
         law,
         shape,

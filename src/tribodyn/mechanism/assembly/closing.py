@@ -54,17 +54,8 @@ Position: TypeAlias = tuple[Any, Any]
 class System:
     """A mechanism while it is put together, its rows as full matrices.
 
-    Parameters
-    ----------
-    model, worn, contacts
-        As for :func:`~tribodyn.mechanism.assembly.records.mechanism_data`.
-    data
-        That of an earlier system of the same model, which is not used any more.
-
-    Attributes
-    ----------
-    known_rank
-        Number of independent constraints, where it is not to be found anew at each position.
+    ``data`` may be that of an earlier system of the same model, which is not used any more; where
+    ``known_rank``, the number of independent constraints, is set, it is not found anew at each position.
     """
 
     def __init__(

@@ -51,17 +51,9 @@ class _Front:
 
 
 class MultifrontalQR:
-    """Factorisation of rows over the motions of bodies.
+    """Factorisation of rows of length one over the motions of bodies, (m, 6 n).
 
-    Parameters
-    ----------
-    matrix
-        Rows of length one, shape (m, 6 n).
-
-    Attributes
-    ----------
-    rank
-        How many rows, and columns, are independent.
+    ``rank`` is how many rows, and columns, are independent.
     """
 
     def __init__(self, matrix: FloatArray) -> None:
@@ -293,19 +285,9 @@ def row_space(matrix: FloatArray, rank: int) -> RowSpace | SparseRowSpace:
 
 
 class RowSpace:
-    """The motions that rows hold, by singular values.
+    """The motions that rows (m, n) of a rank hold, by singular values.
 
-    Parameters
-    ----------
-    matrix
-        The rows, shape (m, n).
-    rank
-        How many are independent.
-
-    Attributes
-    ----------
-    free
-        Orthonormal columns of the motions that they leave, shape (n, n − rank).
+    ``free`` are orthonormal columns of the motions that they leave, shape (n, n − rank).
     """
 
     def __init__(self, matrix: FloatArray, rank: int) -> None:

@@ -71,16 +71,8 @@ _TRIED_GAP: Final = 1.0e-3
 class JointLoads:
     """The loads on bodies that are displaced within the clearances.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, without findings.
-    ideal
-        Its ideal counterpart at the same place and time.
-    speeds
-        Given speeds of free coordinates.
-    over_loads
-        Whether what is left of the loads is compared with all loads, not with the largest one met on the way.
+    The ideal counterpart of the assembly is at the same place and time. With ``over_loads`` what is left of
+    the loads is compared with all loads, not with the largest one met on the way.
     """
 
     def __init__(

@@ -46,26 +46,13 @@ def mechanism_problem(
     carried: Carried | None = None,
     dense: bool = False,
 ) -> Problem:
-    """Return the initial value problem of an assembled mechanism.
+    """Return the initial value problem of an assembled mechanism over ``duration`` [s].
 
-    Parameters
-    ----------
-    assembly
-        From :func:`tribodyn.mechanism.assembly.assembly.assemble`.
-    duration
-        Simulated time [s].
-    rtol
-        Relative tolerance of the run. It holds for velocities; positions and orientations are kept to
-        ``atol`` wherever in the drawing they are.
-    atol
-        Absolute tolerances of positions [m], orientations [rad], velocities [m/s], angular velocities
-        [rad/s]; from ``rtol``, :func:`length_scale` and the speed of the mechanism by default.
-    state
-        Where it begins, shape (13 n,); that of the assembly by default, whose shafts are in the middle.
-    carried
-        State and remembered entry velocities to continue from instead.
-    dense
-        Whether the Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
+    ``rtol`` holds for velocities; positions and orientations are kept to ``atol`` wherever in the drawing
+    they are. These tolerances of positions [m], orientations [rad], velocities [m/s] and angular velocities
+    [rad/s] follow by default from ``rtol``, :func:`length_scale` and the speed of the mechanism. It begins at
+    ``state`` (13 n,), by default that of the assembly, whose shafts are in the middle, or goes on from what
+    is carried. A ``dense`` Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
     """
     data, n = assembly.data, len(assembly.model.bodies)
     begin = assembly.state if state is None else state

@@ -19,11 +19,6 @@ def odd_axes(joints: Mapping[str, JointKeys]) -> str:
 
     Most revolute joints of a planar mechanism have parallel axes. The other axes of revolute joints, and
     those of prismatic joints that are not perpendicular to them, are named with their angle.
-
-    Parameters
-    ----------
-    joints
-        Those that share the constraints of a mechanism that cannot move.
     """
     axes = {name: unit(keys.axis, "axis") for name, keys in joints.items() if keys.axis is not None}
     turning = [name for name in axes if joints[name].type == _PARALLEL]

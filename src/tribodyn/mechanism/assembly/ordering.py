@@ -83,16 +83,9 @@ class _Anchors:
 def elimination_order(
     n_nodes: int, n_bodies: int, rows: list[Rows], edges: list[tuple[int, int]]
 ) -> list[int]:
-    """Return all nodes in the order of their elimination.
+    """Return all nodes in the order of their elimination; bodies are the first, edges pairs with a block.
 
-    Parameters
-    ----------
-    n_nodes, n_bodies
-        Nodes; the first of them are the bodies.
-    rows
-        Nodes with constraint rows. Other nodes that are no bodies belong to force laws.
-    edges
-        Pairs of nodes with a block.
+    Other nodes without constraint rows belong to force laws.
     """
     neighbours: list[set[int]] = [set() for _ in range(n_nodes)]
     for a, b in edges:
@@ -120,19 +113,12 @@ def elimination_order(
 def make_pattern(
     order: list[int], block_of: dict[tuple[int, int], int], sizes: Sequence[int], inverted: int | None = None
 ) -> Pattern:
-    """Return the operations that factorise and solve; blocks that fill in are added to ``block_of``.
+    """Return the operations that factorise and solve in an order; blocks that fill in join ``block_of``.
 
-    Parameters
-    ----------
-    order
-        From :func:`elimination_order`.
-    block_of
-        Numbers of the blocks by row and column, both of each pair.
-    sizes
-        Unknowns of each node, at most six; beyond them blocks on the diagonal are unit matrices, others zero.
-    inverted
-        Number of bodies where blocks on the diagonal are symmetric and positive definite, and those of bodies
-        from which nothing is subtracted are their inverses to begin with.
+    This numbers the blocks by row and column, both of each pair. Beyond the unknowns of a node, at most six,
+    blocks on the diagonal are unit matrices, others zero. Of the first ``inverted`` nodes, bodies, blocks on
+    the diagonal are symmetric and positive definite, and inverses to begin with where nothing is subtracted
+    from them.
     """
     place = {node: i for i, node in enumerate(order)}
     later: dict[int, set[int]] = {node: set() for node in order}

@@ -62,12 +62,7 @@ class Passage:
 def drive_through(assembly: Assembly, duration: float) -> Passage:
     """Follow the drives through their cycle with ideal joints; where those forbid it, with clearances.
 
-    Parameters
-    ----------
-    assembly
-        Without findings.
-    duration
-        Of the run [s]; at most some eight turns are looked at.
+    At most some eight turns of a run of ``duration`` [s] are looked at.
     """
     if not assembly.model.has_loops:
         return Passage()

@@ -63,10 +63,7 @@ class States(Protocol):
     def __call__(self, number: int) -> FloatArray:
         """Return the state at the time with a number, which rises by one, shape (13 n,).
 
-        Raises
-        ------
-        IntegrationFailure
-            There is none.
+        Raises ``IntegrationFailure`` where there is none.
         """
         ...
 
@@ -78,20 +75,9 @@ def walked(
     picture_times: FloatArray,
     progress: Callable[[float], None] | None,
 ) -> Solution:
-    """Return the rows at given states.
+    """Return the rows of a problem, whose memory is changed, at given states along a path.
 
-    Parameters
-    ----------
-    problem
-        The mechanism; its memory is changed.
-    path
-        Times of the rows.
-    states
-        Of the mechanism at these times.
-    picture_times
-        Times of pictures [s], each taken at the nearest row.
-    progress
-        Called with each time reached.
+    Each of the pictures [s] is taken at the nearest row; ``progress`` is called with each time reached.
     """
     begin, walk = time.perf_counter(), _Walk(problem, path, picture_times.size)
     nearest = np.abs(path.times[:, None] - picture_times).argmin(axis=0) if path.times.size else []

@@ -40,16 +40,9 @@ _COORDINATES: Final = ("angle", "position")
 
 
 def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bool = True) -> MechanismData:
-    """Return the data of a mechanism for the kernels.
+    """Return the data of a mechanism for the kernels, worn at the nodes of all joints [m], shape (n_nodes,).
 
-    Parameters
-    ----------
-    model
-        The mechanism as drawn.
-    worn
-        Wear depth at the nodes of all joints [m], shape (n_nodes,); none by default.
-    contacts
-        Whether forces of joints with clearance are to be evaluated: their nodes take most of the room.
+    Without ``contacts`` forces of joints with clearance are not evaluated: their nodes take most of the room.
     """
     signals = SignalList()
     terms: list[Term] = []

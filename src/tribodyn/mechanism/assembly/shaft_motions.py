@@ -57,12 +57,8 @@ def forces(pushes: FloatArray, ends: IntArray, n: int) -> FloatArray:
 class ShaftMotions:
     """Motions of bodies, each of which moves few of them, as the couplings between these take part in them.
 
-    Parameters
-    ----------
-    motions
-        Columns over displacements and rotations of all bodies, shape (6 n, m).
-    ends
-        Numbers of socket and shaft of some couplings, shape (2, k).
+    ``motions`` are columns over displacements and rotations of all bodies, shape (6 n, m), ``ends`` the
+    numbers of socket and shaft of some couplings, shape (2, k).
     """
 
     def __init__(self, motions: FloatArray, ends: IntArray) -> None:

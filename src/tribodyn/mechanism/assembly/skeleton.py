@@ -101,30 +101,15 @@ class Skeleton:
     springs: tuple[Outline, ...] = ()
 
     def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
-        """Return the ends of the lines of a body [mm], shape (..., n, 3).
-
-        Parameters
-        ----------
-        body
-            Its number.
-        position, orientation
-            Mass centre [m] and quaternion, shapes (..., 3) and (..., 4).
-        """
+        """Return the ends of the lines of a body [mm], (..., n, 3); its mass centre is in metres."""
         return self.moved(self.points[body], body, position, orientation)
 
     def moved(
         self, points: FloatArray, body: int, position: FloatArray, orientation: FloatArray
     ) -> FloatArray:
-        """Return the places of points of the model [m] that a body carries [mm], shape (..., n, 3).
+        """Return the places of points (n, 3) of the model [m] that a body carries [mm], shape (..., n, 3).
 
-        Parameters
-        ----------
-        points
-            Shape (n, 3).
-        body
-            Its number; −1 for the ground.
-        position, orientation
-            Of this body, shapes (..., 3) and (..., 4); of any for the ground.
+        −1 is the number of the ground; then the position and the orientation are those of any body.
         """
         if body < 0:
             return np.broadcast_to(MM * points, (*position.shape[:-1], *points.shape))
@@ -240,13 +225,7 @@ def rotated(quaternion: FloatArray, vectors: FloatArray) -> FloatArray:
 
 
 def view(points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return from where a mechanism is seen, and what is up, two unit vectors.
-
-    Parameters
-    ----------
-    points
-        Where it comes to, shape (n, 3).
-    """
+    """Return the directions from which a mechanism that comes to points (n, 3) is seen, and up."""
     spans = np.ptp(points, axis=0)
     thin = int(np.argmin(spans))
     up = np.eye(3)[2 if thin != 2 else 1]

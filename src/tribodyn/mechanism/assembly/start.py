@@ -23,12 +23,7 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
     """Return the state in which the loads on all shafts balance, shape (13 n,); None if none is found.
 
     Without clearance it is that of the assembly. So it is of joints with an oil film, which carries by motion
-    alone: they begin in the middle of their bores.
-
-    Raises
-    ------
-    Stopped
-        If the caller wanted to stop before the end of the search.
+    alone: they begin in the middle of their bores. Raises ``Stopped`` if the caller wanted to stop before.
     """
     if not assembly.model.without_films.yields:
         return assembly.state
@@ -69,17 +64,10 @@ _FINE: Final = 1.0e-4
 
 
 def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:
-    """Move the bodies to where their loads balance; return the state there, or None.
+    """Move the bodies from where the search begins to where their loads balance; return the state, or None.
 
-    Parameters
-    ----------
-    loads
-        With the bodies where the search begins.
-    change
-        Change of gaps, over the roughness, that counts as zero.
-    near
-        Change of gaps, over the roughness, after which the possible motions are not looked for again; it
-        grows from look to look.
+    A change of gaps below ``change`` over the roughness counts as zero; after one below ``near``, which grows
+    from look to look, the possible motions are not looked for again.
     """
     soft, quiet = 0.0, False
     for look in range(_MOST_LOOKS):

@@ -59,16 +59,8 @@ def start(
 ) -> list[ModelError]:
     """Fill the velocities at the start; return what makes given speeds impossible.
 
-    Parameters
-    ----------
-    system
-        The mechanism where it starts.
-    speeds
-        Of free coordinates.
-    ideal
-        The ideal counterpart at the same place; None where no joint has clearance.
-    fits
-        Whether this counterpart can move as its drives do; its rows must then be satisfied exactly.
+    The ideal counterpart at the same place is None where no joint has clearance; ``fits`` says whether it can
+    move as its drives do: its rows must then be satisfied exactly.
     """
     exact, root = _rows(system, speeds), system.metric
     scaled = dense.product(exact.matrix, root)

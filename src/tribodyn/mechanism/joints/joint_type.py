@@ -89,13 +89,7 @@ class JointType:
         return {"point": "0, 0, 0 mm", **axes, **second, **self.NEEDED}
 
     def check(self, keys: Any) -> None:
-        """Refuse keys that do not fit; ``keys`` are those of the joint.
-
-        Raises
-        ------
-        InputError
-            With the reason; its key is the one of the table of the joint.
-        """
+        """Refuse keys of the joint that do not fit, with the key of the table of the joint in the error."""
 
     def shaft_axes(self, first: FloatArray, second: FloatArray) -> FloatArray:
         """Return the axes of the second body as columns, shape (3, 3), from the axes of the joint (3,)."""

@@ -31,6 +31,7 @@ SITUATIONS: Final = {
     "tilted": ("On opposite faces", "corners of opposite faces touch: it is tilted as far as it goes"),
 }
 """Contacts of a block by names, with labels; results hold their numbers."""
+_POSE: Final = ("displacement", "tilt_x", "tilt_y", "joint_angle")
 
 
 def guide_columns(
@@ -42,34 +43,17 @@ def guide_columns(
 ) -> dict[str, FloatArray]:
     """Return the situations of guides over time, (n_t, n_joints), NaN for others; nothing without any.
 
-    Parameters
-    ----------
-    model
-        The mechanism.
-    data
-        What the kernels of the run read, with its wear.
-    places
-        Surfaces of all joints with clearance.
-    rows
-        Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
-    openings
-        What temperatures have added to clearances [m], shape (n_t, n, 2), of the joints with clearance.
+    The data are those of the run, with its wear; ``rows`` are observed of all couplings, openings what
+    temperatures have added to the clearances of joints that have one [m], shape (n_t, n, 2).
     """
     found = np.full((len(rows["tilt_x"]), len(model.joints)), np.nan)
     for j, (number, clearance) in enumerate(zip(model.real, model.clearances.values(), strict=True)):
         if not isinstance(clearance.shape, FlatWalls):
             continue
-        turned = [rows[name][:, number] for name in ("tilt_x", "tilt_y", "joint_angle")]
-        pose = np.column_stack([rows["displacement"][:, number], *turned])
+        pose = np.column_stack([rows[name][:, number] for name in _POSE])
         walls = [place for place in places if place.joint == j]
-        touching = np.stack(
-            [
-                _gaps(wall.surface, data.nodes[GAP, wall.nodes], pose, openings[:, j])
-                < clearance.onset * clearance.roughness
-                for wall in walls
-            ],
-            axis=1,
-        )
+        gaps = [_gaps(one.surface, data.nodes[GAP, one.nodes], pose, openings[:, j]) for one in walls]
+        touching = np.stack(gaps, axis=1) < clearance.onset * clearance.roughness
         found[:, number] = situation(touching, np.array([wall.surface.normal[0] for wall in walls]))
     return {"guide_contact": found} if np.isfinite(found).any() else {}
 

@@ -82,21 +82,13 @@ def _walls(shape: FlatWalls, way: FloatArray) -> dict[str, Any]:
     Each has its corners, and by how much a gap sets them off. A pin has half its length across its slot.
     """
     half, low, high = 0.5 * MM * shape.length, float(way.min(initial=0.0)), float(way.max(initial=0.0))
+    walls = [{"corners": (MM * points).tolist(), "ways": ways.tolist()} for points, ways in shape.outlines()]
     if isinstance(shape, Slot):
-        r = MM * shape.radius
-        plates = [
-            [[x, side * y] for x, y in ((-half, r), (half, r), (half, 1.5 * r), (-half, 1.5 * r))]
-            for side in (1, -1)
-        ]
-        sections = [
-            {"corners": plate, "ways": 4 * [[0, side]]} for plate, side in zip(plates, (1, -1), strict=True)
-        ]
-        return {"walls": sections, "across": True, "half": half, "ends": [low - 1.5 * r, high + 1.5 * r]}
-    corners, ways = shape.outline()
-    sections = [{"corners": (MM * corners).tolist(), "ways": ways.tolist()}]
+        beyond = 1.5 * MM * shape.radius
+        return {"walls": walls, "across": True, "half": half, "ends": [low - beyond, high + beyond]}
     if shape.through:
-        return {"walls": sections, "half": half + max(high, -low), "ends": [-half, half]}
-    return {"walls": sections, "half": half, "ends": [low - half, high + half]}
+        return {"walls": walls, "half": half + max(high, -low), "ends": [-half, half]}
+    return {"walls": walls, "half": half, "ends": [low - half, high + half]}
 
 
 def magnified(found: Iterable[dict[str, Any]]) -> dict[str, Any] | None:

@@ -6,6 +6,8 @@ from typing import Any, ClassVar, TypeAlias
 from tribodyn.cases.case import NamedGroup
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.shapes import Shape
+from tribodyn.joints.shapes.guide import rows_across
+from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.mechanism.joints.joint_type import JointType
 
 Local: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -31,6 +33,8 @@ class ClearanceShape:
     IDEAL
         Type of the ideal joint that holds the same, which the joint becomes as the clearance vanishes; empty
         for that of the joint itself.
+    WALLS
+        Number of its walls, if these are flat.
     """
 
     NAME: ClassVar[str]
@@ -40,15 +44,10 @@ class ClearanceShape:
     KEYS: ClassVar[type[NamedGroup]] = NamedGroup
     BORE: ClassVar[bool] = False
     IDEAL: ClassVar[str] = ""
+    WALLS: ClassVar[int] = 0
 
     def check(self, kind: JointType, keys: Any) -> None:
-        """Refuse keys of the clearance that do not fit a type of joint; what it needs is there.
-
-        Raises
-        ------
-        InputError
-            With the reason; its key is the one of the table of the joint.
-        """
+        """Refuse keys that do not fit a type of joint, named as in its table; what is needed is there."""
 
     def ideal(self, kind: str, keys: Any) -> str:
         """Return the type of the ideal joint that holds the same as a joint of some type."""
@@ -61,10 +60,10 @@ class ClearanceShape:
     def room(self, shape: Any) -> tuple[float, float, float]:
         """Return the play of the shaft across and along the axis, and the length over which it tilts [m].
 
-        A length of 0 is one over which it may tilt freely.
+        Over a length of 0 it may tilt freely.
         """
-        return shape.clearance, shape.clearance, 0.0
+        return shape.clearance, shape.clearance, getattr(shape, "length", 0.0)
 
     def nodes(self, keys: Any, around: int, along: float) -> float:
         """Return the number of nodes on a grid, for the costs of a run."""
-        return around * along
+        return (self.WALLS * (rows_across(around) + EDGES) if self.WALLS else around) * along

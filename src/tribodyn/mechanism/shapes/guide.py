@@ -5,8 +5,7 @@ from typing import Any, ClassVar, Final
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.fields import quantity, switch
-from tribodyn.joints.shapes.guide import FEWEST, Guide, Wall
-from tribodyn.joints.shapes.rings import EDGES
+from tribodyn.joints.shapes import Guide, Wall
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape, Local
 
@@ -61,6 +60,7 @@ class SquareGuide(ClearanceShape):
         "radial": "20 um",
     }
     KEYS: ClassVar[type[NamedGroup]] = BlockKeys
+    WALLS: ClassVar[int] = 4
 
     def check(self, kind: JointType, keys: Any) -> None:
         """Refuse a radius, and a play that is as large as the block."""
@@ -83,19 +83,12 @@ class SquareGuide(ClearanceShape):
             Wall("bottom", (-x, -y), (x, -y)),
         )
 
-    def room(self, shape: Any) -> tuple[float, float, float]:
-        """Return the clearance twice, and the length of the block."""
-        return shape.clearance, shape.clearance, shape.length
-
-    def nodes(self, keys: Any, around: int, along: float) -> float:
-        """Return the nodes of all walls."""
-        return len(self.walls(keys)) * (max(around // 4, FEWEST) + EDGES) * along
-
 
 class DovetailGuide(SquareGuide):
     """A block that its inclined flanks hold on its wide side."""
 
     NAME: ClassVar[str] = "dovetail"
+    WALLS: ClassVar[int] = 3
     KEYS: ClassVar[type[NamedGroup]] = DovetailKeys
 
     def check(self, kind: JointType, keys: Any) -> None:

@@ -75,18 +75,9 @@ def fill_windows(
     limit: float,
     edges: float,
 ) -> int:
-    """Fill windows and gaps of four rings and return the number of their groups within the windows.
+    """Fill windows and gaps of four rings from row ``r`` on; return the number of groups within windows.
 
-    Parameters
-    ----------
-    data, surface, memory, station
-        As for ``ring_wrench.wrench``.
-    r
-        Row of the first of the rings.
-    limit
-        Largest gap that is looked at [m].
-    edges
-        1 if rows on an edge, without area, are looked at, too.
+    Gaps up to ``limit`` [m] are looked at, and with ``edges`` 1 rows on an edge, without area, too.
     """
     rings, block, d, phi, zero = data.rings, memory.block, station.d, memory.scratch.tilt.phi, zeros()
     n_r, arm = load(rings[N_RADIAL], r), load(rings[ARM], r)
@@ -180,26 +171,10 @@ def contact_windows(room: Any, a: Any, b: Any, eccentricity: Any, n_theta: Any) 
     """Return the first group of four nodes and the number of groups that hold every unworn gap below a limit.
 
     The gap of a ring is ``room + a cos θ + b sin θ`` above the limit (Eq. 48), a cosine with its minimum
-    opposite to the direction of (a, b). Wear only widens the gap, so the window of the unworn gap
-    holds every node in contact. The room includes a bound of the second-order term of the tilt.
-    A node more at each end may be in it: looking up its gap costs less than exact trigonometry.
-
-    Parameters
-    ----------
-    room
-        Radial clearance, less the largest second-order term of the tilt and the largest gap that is looked
-        at [m].
-    a, b, eccentricity
-        Offset of the axis in this ring along X and Y, and its size [m].
-    n_theta
-        Number of nodes around the circumference.
-
-    Returns
-    -------
-    first : lanes
-        The first group, 0 to that of node ``n_theta`` − 1; the window may go on at group 0.
-    number : lanes
-        Number of groups; all where a gap is not a number.
+    opposite to the direction of (a, b), whose size is the eccentricity [m]. Wear only widens the gap, so the
+    window of the unworn gap holds every node in contact. The room includes a bound of the second-order term
+    of the tilt. A node more at each end may be in it: looking up its gap costs less than exact trigonometry.
+    The window may go on at group 0; where a gap is not a number it holds all.
     """
     zero, one, last = zeros(), spread(1.0), spread(WIDTH - 1.0)
     cosine = room / eccentricity

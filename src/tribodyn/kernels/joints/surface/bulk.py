@@ -64,16 +64,9 @@ SLOPE: Final = 21 * WIDTH
 def fill_bulk(
     data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, r: int, slopes: float
 ) -> None:
-    """Fill ``LEVEL`` and ``SHARE`` of four rings from row ``r`` on.
+    """Fill ``LEVEL`` and ``SHARE`` of four rings from row ``r`` on, whose windows are filled.
 
-    Parameters
-    ----------
-    data, surface, memory, station
-        As for ``ring_wrench.wrench``; windows of the block are filled.
-    r
-        Row of the first of the rings.
-    slopes
-        1 if ``CHANGE`` and ``SLOPE`` are filled, too.
+    With ``slopes`` 1 ``CHANGE`` and ``SLOPE`` are filled, too.
     """
     rings, block, zero, one = data.rings, memory.block, zeros(), spread(1.0)
     if surface.extent == FACE:

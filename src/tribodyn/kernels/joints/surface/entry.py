@@ -28,14 +28,7 @@ def update_entry_velocity(
     """Let nodes enter and leave contact at the end of an accepted step.
 
     A node below the onset separation without a memory takes max(|δ̇|, v_min); one above the onset forgets.
-    Points already in contact at the start of a run take v_min.
-
-    Parameters
-    ----------
-    data, surface, memory, station
-        As for ``wrench``; the entry velocities are changed in place.
-    at_start
-        1 at the start of a run, 0 otherwise.
+    Points already in contact at the start of a run, where ``at_start`` is 1, take v_min.
     """
     tilt, entry_velocity = memory.scratch.tilt, memory.entry_velocity
     onset, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0

@@ -8,7 +8,7 @@ from tribodyn.kernels.joints.columns import OTHERS, PART, PITCH
 POSITION: Final = OTHERS
 NORMAL: Final = OTHERS + 3 * PITCH
 MOMENT: Final = OTHERS + 6 * PITCH
-"""x, n, and after it −∂h/∂φ, which is x × n except for tilted cylinders, see ``tilt``."""
+"""x, n, and after it x × n."""
 SLIP: Final = OTHERS + 9 * PITCH
 """Six columns (ŝ, x × ŝ) with ŝ = s/q, q = √(s² + u_s²)."""
 SLIP_SQUARE: Final = OTHERS + 15 * PITCH

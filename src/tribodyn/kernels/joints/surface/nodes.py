@@ -51,7 +51,6 @@ def _load(
     scale: float,
     shift: float,
     last: float,
-    lean: float,
     station: Record,
     first: int,
     size: int,
@@ -70,11 +69,8 @@ def _load(
         i, n = source + np.uint64(k), at + k
         x, y, z = nodes[NODE_POSITION, i], nodes[NODE_POSITION + 1, i], nodes[NODE_POSITION + 2, i]
         n_x, n_y, n_z = nodes[NODE_NORMAL, i], nodes[NODE_NORMAL + 1, i], nodes[NODE_NORMAL + 2, i]
-        leaning = n_x * phi_y - n_y * phi_x
-        arm = lean * leaning
-        m_x, m_y, m_z = y * n_z - (z + arm) * n_y, (z + arm) * n_x - x * n_z, x * n_y - y * n_x
+        m_x, m_y, m_z = y * n_z - z * n_y, z * n_x - x * n_z, x * n_y - y * n_x
         near = n_x * d_x + n_y * d_y + n_z * d_z + m_x * phi_x + m_y * phi_y + m_z * phi_z
-        near -= 0.5 * arm * leaning
         number, place = interval(shift + scale * (nodes[GAP, i] - near), last)
         work[INTERVAL + n] = number
         work[FRACTION + n] = place
@@ -110,13 +106,7 @@ def rewind(surface: Record, memory: SurfaceMemory) -> None:
 
 @kernel
 def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> int:
-    """Fill the next part of the list and return the number of its nodes, 0 after the last one.
-
-    Parameters
-    ----------
-    data, surface, memory, station
-        As for ``wrench``; the tilt in ``memory.scratch`` is that of the shaft.
-    """
+    """Fill the next part of the list and return the number of its nodes, 0 after the last one."""
     nodes, entry_velocity, scratch = data.nodes, memory.entry_velocity, memory.scratch
     cursor, phi = scratch.listed.cursor, scratch.tilt.phi
     limit = surface.h_last * surface.roughness
@@ -128,19 +118,7 @@ def gather(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: R
         row, left = data.rows[r], 0
         if is_near(row, station, phi, limit - station.opening):
             size = min(row.count - taken, PART - n)
-            _load(
-                nodes,
-                entry_velocity,
-                scratch,
-                scale,
-                shift,
-                last,
-                surface.lean,
-                station,
-                row.first + taken,
-                size,
-                n,
-            )
+            _load(nodes, entry_velocity, scratch, scale, shift, last, station, row.first + taken, size, n)
             n, taken = n + size, taken + size
             left = row.count - taken
         if left == 0:

@@ -195,21 +195,14 @@ def _add_column(
     lever = _sum(_cross(x, pull), force, _cross(d_x, unit))
     if surface.torque_radius > 0.0:
         pull, lever = zero, (0.0, 0.0, surface.torque_radius * station.direction * d_force)
-    column = m % 6
+    column, normal, friction = m % 6, scratch.normal_place, scratch.friction_place
+    if part > 0:  # the slip alone moves no normal force
+        normal, friction = scratch.normal_rate, scratch.friction_rate if part == 1 else scratch.friction_slip
     for i in range(3):
-        if part == 0:
-            scratch.normal_place[i, column] -= push[i]
-            scratch.normal_place[3 + i, column] -= arm[i]
-            scratch.friction_place[i, column] -= mu * pull[i]
-            scratch.friction_place[3 + i, column] -= mu * lever[i]
-        elif part == 1:
-            scratch.normal_rate[i, column] -= push[i]
-            scratch.normal_rate[3 + i, column] -= arm[i]
-            scratch.friction_rate[i, column] -= mu * pull[i]
-            scratch.friction_rate[3 + i, column] -= mu * lever[i]
-        else:
-            scratch.friction_slip[i, column] -= mu * pull[i]
-            scratch.friction_slip[3 + i, column] -= mu * lever[i]
+        normal[i, column] -= push[i]
+        normal[3 + i, column] -= arm[i]
+        friction[i, column] -= mu * pull[i]
+        friction[3 + i, column] -= mu * lever[i]
 
 
 @kernel

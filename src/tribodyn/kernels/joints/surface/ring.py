@@ -153,14 +153,7 @@ def place_of(row: Record, group: int) -> tuple[int, int]:
 def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int, purpose: float) -> int:
     """Fill the motion at the nodes of a block, whose rings are filled; return the ends of groups.
 
-    Parameters
-    ----------
-    data, surface, memory
-        As for ``ring_wrench.wrench``.
-    r
-        Row of the first ring of the block.
-    purpose
-        ``WRENCH``, ``REPORT`` or ``DERIVATIVES``, which have columns of their own.
+    ``r`` is its first row; ``WRENCH``, ``REPORT`` and ``DERIVATIVES`` have columns of their own.
     """
     entry_velocity, block, at = memory.entry_velocity, memory.block, BLOCK_GROUPS
     cos, sin, lift, drawn = data.angles[COS], data.angles[SIN], data.angles[LIFT], data.nodes[GAP]

@@ -28,7 +28,7 @@ from tribodyn.kernels.lanes import WIDTH, above, load, spread, store, zeros
 def update_entry_velocity(
     data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record, at_start: float
 ) -> None:
-    """Let nodes enter and leave contact; arguments as for ``entry.update_entry_velocity``."""
+    """Let nodes enter and leave contact."""
     limit, heed = surface.onset * surface.roughness, 0.0 if at_start > 0.0 else 1.0
     for r in range(surface.first_row, surface.last_row, WIDTH):
         if fill_windows(data, surface, memory, station, r, limit, 1.0) > 0:

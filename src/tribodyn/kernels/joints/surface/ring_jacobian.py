@@ -87,7 +87,7 @@ class Arms(NamedTuple):
 def wrench_and_derivatives(
     data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record
 ) -> None:
-    """Fill ``normal``, ``friction`` and their derivatives in the scratch; arguments as for ``wrench``."""
+    """Fill ``normal``, ``friction`` and their derivatives in the scratch."""
     scratch, limit, forces = memory.scratch, surface.h_last * surface.roughness, no_forces()
     turns, bends = surface.torque_radius > 0.0, does_bend(surface)
     rubs = 1.0 if surface.friction_coefficient > 0.0 and not turns else 0.0

@@ -52,16 +52,8 @@ def fill_sums(
 ) -> None:
     """Fill the sums of the block of rings that begins at row ``r``, times the area of a node.
 
-    Parameters
-    ----------
-    data, surface, memory
-        As for ``ring_wrench.wrench``; the block is filled.
-    r
-        Row of the first of the rings.
-    rubs
-        1 if there is friction in the directions of slip.
-    bends
-        1 if the tilt has a second-order term.
+    ``rubs`` is 1 if there is friction in the directions of slip, ``bends`` if the tilt has a second-order
+    term.
     """
     block, each, at = memory.block, memory.scratch.ring_sums, BLOCK_GROUPS
     for k in range(WIDTH):

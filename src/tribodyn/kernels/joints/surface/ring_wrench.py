@@ -41,7 +41,7 @@ Forces = tuple[Pressures, Tractions, Any]
 
 @kernel
 def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> None:
-    """Fill ``normal`` and ``friction`` of the scratch; arguments as for ``wrench.wrench``."""
+    """Fill ``normal`` and ``friction`` of the scratch."""
     limit, forces = surface.h_last * surface.roughness, no_forces()
     for r in range(surface.first_row, surface.last_row, WIDTH):
         if fill_windows(data, surface, memory, station, r, limit, 0.0) > 0:

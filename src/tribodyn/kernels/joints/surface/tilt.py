@@ -41,17 +41,7 @@ Tilt: Final = record_type(
 
 @kernel
 def fill_tilt(kind: float, rotation: FloatArray, w: FloatArray, tilt: Record) -> None:
-    """Fill φ, G and φ̇.
-
-    Parameters
-    ----------
-    kind
-        ``NO_TILT``, ``AXIS``, ``WHOLE`` or ``LINE``.
-    rotation, w
-        Of the pose.
-    tilt
-        Filled, but for ``rate_turn``.
-    """
+    """Fill φ, G and φ̇ of a kind of tilt from rotation and angular velocity."""
     phi, matrix, rate = tilt.phi, tilt.to_rate, tilt.rate
     clear(matrix)
     for i in range(3):

@@ -26,19 +26,7 @@ def slip_square(surface: Record) -> float:
 
 @kernel
 def wrench(data: SurfaceData, surface: Record, memory: SurfaceMemory, station: Record) -> None:
-    """Fill ``normal`` and ``friction`` of the scratch.
-
-    Parameters
-    ----------
-    data
-        All joints.
-    surface
-        One of their surfaces.
-    memory
-        Their memory, of which the scratch alone is changed; its tilt is that of the shaft.
-    station
-        Of the shaft, see ``station``.
-    """
+    """Fill ``normal`` and ``friction`` of the scratch, whose tilt is that of the shaft."""
     normal, friction = memory.scratch.normal, memory.scratch.friction
     for k in range(6):
         normal[k] = friction[k] = 0.0

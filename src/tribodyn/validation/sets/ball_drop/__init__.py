@@ -9,6 +9,7 @@ import numpy as np
 from tribodyn.contact import DAMPING_FACTORS, SurfacePair, law, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.joints.point_contact import point_table
+from tribodyn.joints.shapes import Points
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
@@ -27,14 +28,8 @@ _PAIR: Final = SurfacePair(
 """Surfaces of the impact; neither they nor the radius change the restitution."""
 
 
-@dataclass(frozen=True)
-class _Ball:
-    """A ball in a race so much larger that it is a plane."""
-
-    clearance: float = 1.0
-    radius: float = 0.02
-    bore_radius: float = 1.02
-    length: float = 1.0
+_BALL = Points(radius=0.02, clearance=1.0, length=1.0, heights=(0.0,))
+"""A ball in a race so much larger that it is a plane."""
 
 
 def compare(one: ValidationSet) -> Outcome:
@@ -61,7 +56,7 @@ def restitution(factor: str, requested: float) -> float:
         plates = law("linear", _PAIR, damping_factor=factor, restitution=requested)
         return bounce(tabulate(plates)).restitution
     ball = law("linear", _PAIR, damping_factor=factor, restitution=requested)
-    table = point_table("point-lankarani-nikravesh", ball, _Ball(), points=1)
+    table = point_table("point-lankarani-nikravesh", ball, _BALL, points=1)
     return bounce(table, onset=0.0, design_pressure=_FORCE).restitution
 
 
