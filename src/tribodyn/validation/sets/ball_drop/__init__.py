@@ -1,7 +1,6 @@
 """Restitution returned by damping factors against the restitution requested."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
