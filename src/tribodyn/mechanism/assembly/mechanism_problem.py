@@ -51,7 +51,7 @@ def mechanism_problem(
     ``rtol`` holds for velocities; positions and orientations are kept to ``atol`` wherever in the drawing
     they are. These tolerances of positions [m], orientations [rad], velocities [m/s] and angular velocities
     [rad/s] follow by default from ``rtol``, :func:`length_scale` and the speed of the mechanism. It begins at
-    ``state`` (13 n,), by default that of the assembly, whose shafts are in the middle, or goes on from what
+    ``state`` (13 n,), by default that of the assembly, whose shafts are in the middle, or continues what
     is carried. A ``dense`` Jacobian is a full matrix, as integrators other than ``mebdf`` need it.
     """
     data, n = assembly.data, len(assembly.model.bodies)
