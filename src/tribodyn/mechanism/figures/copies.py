@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from tribodyn.figures.figure_family import Family
-from tribodyn.figures.style import BLUE, INK, SMALL, VERMILION, legend, note, sheet
+from tribodyn.figures.style import BLUE, INK, SMALL, VERMILION, legend_below, note, sheet
 from tribodyn.mechanism.results.copies import copies_of, worst
 from tribodyn.results.reading import column, settled
 from tribodyn.results.variables import ERROR_UNITS
@@ -43,8 +43,8 @@ def draw(dataset: xr.Dataset) -> Figure:
         shown = np.unique(np.linspace(0, len(numbers) - 1, min(len(numbers), 12)).astype(int))
         axes.set_xticks(angles[shown], [f"{name}[{k + 1}]" for k in shown], size=SMALL)
         axes.tick_params(axis="y", labelsize=SMALL)
-        axes.set_title(f"error [{unit.shown}]", size=SMALL)
-        legend(axes, 3)
+        axes.set_xlabel(f"error [{unit.shown}]", size=SMALL)
+    legend_below(figure, every[0], 3)
     return figure
 
 
