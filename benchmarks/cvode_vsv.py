@@ -14,6 +14,7 @@ import numba as nb
 import numpy as np
 from numba.core import cgutils, imputils
 
+import mebdf.compiled.jit  # noqa: F401  # has numba call kernels
 from benchmarks.sundials import CV_ONE_STEP, Cvode, columns, counts, library, numbers, vector
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Solution

@@ -56,6 +56,7 @@ REFUSED_BY = {
     "reproduce": ("reproduce", "missing"),
     "surface": ("surface", "missing.csv"),
     "contributions": ("contributions", "vsv"),
+    "builds": ("builds", "vsv"),
     "slopes": ("slopes", "vsv", "--vary", "nothing", "--of", "tilt_max_mrad"),
     "allocate": (
         "allocate",

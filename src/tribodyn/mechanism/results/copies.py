@@ -56,7 +56,7 @@ def worst(error: FloatArray) -> int:
 def worst_copies(dataset: xr.Dataset) -> list[str]:
     """Return the ends of the names of the parts of the copies that are furthest from the mean: ``[7]``."""
     error = column(dataset, "output_error")
-    return [f"[{1 + worst(error[:, numbers])}]" for numbers in copies_of(dataset).values()]
+    return [f"[{1 + worst(error[:, numbers])}]" for numbers in copies_of(dataset).values() if error.size]
 
 
 def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[str]:
@@ -71,6 +71,8 @@ def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[s
     time, errors
         Times of its rows [s], and the errors of its outputs, shape (n_t, n_outputs).
     """
+    if not time.size:
+        return
     period = case.period or math.inf
     errors = errors[time >= (period if time[-1] >= 2.0 * period * (1.0 - 1e-9) else 0.0)]
     values = _differing(case)
