@@ -100,7 +100,7 @@ docs/_build/drawn/%: docs/plots/%.py $(PROGRAM)
 docs/_build/drawn/measured: $(wildcard docs/plots/measures/*.py) docs/_static/benchmarks.json
 
 docs/_build/unread: $(PROGRAM)
-	rm -rf $(DOCS)/.doctrees
+	rm -rf $(DOCS)/.doctrees docs/reference/generated
 	@mkdir -p $(@D) && touch $@
 
 bench: $(VENV)/.bench
