@@ -44,6 +44,8 @@ SMALL: Final = 8.0
 _ACROSS: Final = 3
 """Panels beside each other; one less where their names are long."""
 _LONG: Final = 18
+_FACT: Final = 30
+"""Characters of a fact about a run that stand below a title."""
 
 
 def sheet(dataset: xr.Dataset, title: str, height: float, width: float = WIDTH) -> Figure:
@@ -87,9 +89,9 @@ def subtitle(dataset: xr.Dataset) -> str:
     if "clearance" in dataset.attrs:
         facts.append(f"clearance {dataset.attrs['clearance'] * 1e6:.4g} µm")
     if "contact_law" in dataset.attrs:
-        facts.append(f"{str(dataset.attrs['contact_law']).upper()} contact")
+        facts.append(f"{str(dataset.attrs['contact_law'])[:_FACT].upper()} contact")
     if "formulation" in dataset.attrs:
-        facts.append(f"{dataset.attrs['formulation']} formulation")
+        facts.append(f"{str(dataset.attrs['formulation'])[:_FACT]} formulation")
     return plain(" · ".join(fact for fact in facts if fact))
 
 

@@ -124,6 +124,11 @@ def test_a_hostile_title_is_printed_as_it_is(make_result):
     assert title in "".join(ElementTree.fromstring(file.getvalue()).itertext())
 
 
+def test_facts_below_a_title_are_short(make_result):
+    figure = FIGURES["tilt"].draw(make_result(0.1, contact_law="[" * 1000))
+    assert max(len(text.get_text()) for text in figure.texts) < 200
+
+
 def test_names_captions_and_needs_are_complete():
     for name, family in FIGURES.items():
         assert family.name == name

@@ -181,6 +181,12 @@ def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) 
     assert family.draw(RESULT.isel(time=slice(0, 0), frame=slice(0, 0))).axes
 
 
+def test_orbits_without_velocities_join_the_rows_by_lines() -> None:
+    lost = RESULT.assign(relative_velocity=RESULT["relative_velocity"] * np.nan)
+    orbit = next(section for chapter in CHAPTERS for section in chapter.sections if section.name == "orbits")
+    assert orbit.payload(lost) is not None
+
+
 @pytest.mark.parametrize(
     "section", [s for chapter in CHAPTERS for s in chapter.sections], ids=lambda s: s.name
 )

@@ -40,6 +40,8 @@ class Shafts:
         if time.size < 2 or not self._has_rates:
             return values
         rates = self._rates(joint)[inside]
+        if not (np.isfinite(values).all() and np.isfinite(rates).all()):
+            return values
         room = LINE_ERROR * float(self.dataset["clearance"].values[joint])
         return Cubics(time, values, rates)(dense_times(time, values[:, :2], rates[:, :2], room))
 
