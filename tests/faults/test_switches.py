@@ -265,7 +265,7 @@ BETWEEN_STEPS = (1530, 2822, 3310, 7025)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_a_slip_between_two_steps_takes_shorter_steps(seed):
     case = random_case(seed)
-    assert is_wrong(error_of(case, 3000))  # as BDF and Radau, where they end
+    assert_honest([seed], 3000, 0.0)  # where it misses the slip, BDF and Radau do, too
     assert not is_wrong(
         error_of(replace(case, options={**case.options, "max_step": case.t_end / 200}), 20_000)
     )

@@ -44,7 +44,7 @@ SMALL: Final = 8.0
 _ACROSS: Final = 3
 """Panels beside each other; one less where their names are long."""
 _LONG: Final = 18
-_FACT: Final = 30
+_FACT: Final = 60
 """Characters of a fact about a run that stand below a title."""
 
 
@@ -85,14 +85,14 @@ def grid(dataset: xr.Dataset, title: str, names: Sequence[str], height: float) -
 
 def subtitle(dataset: xr.Dataset) -> str:
     """Return one line that names the run; dollar signs are kept as they are."""
-    facts = [str(dataset.attrs.get("title", ""))[:60]]
+    facts = [str(dataset.attrs.get("title", ""))]
     if "clearance" in dataset.attrs:
         facts.append(f"clearance {dataset.attrs['clearance'] * 1e6:.4g} µm")
     if "contact_law" in dataset.attrs:
-        facts.append(f"{str(dataset.attrs['contact_law'])[:_FACT].upper()} contact")
+        facts.append(f"{str(dataset.attrs['contact_law']).upper()} contact")
     if "formulation" in dataset.attrs:
-        facts.append(f"{str(dataset.attrs['formulation'])[:_FACT]} formulation")
-    return plain(" · ".join(fact for fact in facts if fact))
+        facts.append(f"{dataset.attrs['formulation']} formulation")
+    return plain(" · ".join(fact[:_FACT] for fact in facts if fact))
 
 
 def plain(text: str) -> str:

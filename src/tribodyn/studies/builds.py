@@ -40,12 +40,8 @@ _REPLICATES: Final = 40
 """Times that the copies are drawn anew, with replacement, for the interval of a quantile."""
 _SURE: Final = (0.025, 0.975)
 Law: TypeAlias = Callable[[np.random.Generator, int], FloatArray]
-NUMBERS: Final = {
-    "spread_max": "largest difference of two copies",
-    "sigma": "standard deviation of copies",
-    "error_max": "largest error of a copy",
-}
-"""Numbers of a build, by parts of their names, with what they are."""
+NUMBERS: Final = ("spread_max", "sigma", "error_max")
+"""Parts of the names of a build's numbers: largest difference of two copies, deviation, largest error."""
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,8 @@ def _depths(dataset: xr.Dataset, depths: FloatArray, stages: list[str]) -> Paylo
     if not largest > 0.0:
         return None
     unit, size = fitting_unit(largest)
-    return unrolled(dataset, depths / size).payload(depths / size, "wear depth", unit, stages=stages)
+    depths = depths / size
+    return unrolled(dataset, depths).payload(depths, "wear depth", unit, stages=stages)
 
 
 def _history(dataset: xr.Dataset) -> list[Panel]:
