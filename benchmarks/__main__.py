@@ -17,6 +17,7 @@ from typing import Final
 
 from benchmarks.figure import draw
 
+#: Every benchmark once: to add one, write a module with ``run`` and name it here.
 NAMES: Final = (
     "joint_kernel",
     "vsv",
@@ -34,7 +35,6 @@ NAMES: Final = (
     "random_machines",
     "static_machines",
 )
-"""Every benchmark once: to add one, write a module with ``run`` and name it here."""
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"
 
 

@@ -18,6 +18,8 @@ from benchmarks.problems import PROBLEMS
 from benchmarks.work_precision import cost_at
 
 COSTS: Final = ("steps", "rhs", "lu")
+#: Digits, steps, evaluations and LU decompositions. Beyond 7.5 digits Van der Pol's do not grow, and the end
+#: point that the pendulum was compared with is right to 10.
 PUBLISHED: Final = {
     "VDP11": (
         (2.813, 3320, 7260, 502),
@@ -36,8 +38,6 @@ PUBLISHED: Final = {
         (9.341, 47, 63, 8),
     ),
 }
-"""Digits, steps, evaluations and LU decompositions. Beyond 7.5 digits Van der Pol's do not grow, and the end
-point that the pendulum was compared with is right to 10."""
 
 
 def run(quick: bool = False) -> dict[str, list[dict[str, Any]]]:

@@ -5,12 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any, Final, TypeAlias
 
-PITCH: Final = 0.12
-"""Distance of the pivots on the ground [m]."""
-LENGTH: Final = 0.05
-"""Of the rockers [m]."""
-LEAN: Final = math.radians(70.0)
-"""Angle of the rockers in the drawing [rad]."""
+PITCH: Final = 0.12  #: Distance of the pivots on the ground [m].
+LENGTH: Final = 0.05  #: Of the rockers [m].
+LEAN: Final = math.radians(70.0)  #: Angle of the rockers in the drawing [rad].
 Point: TypeAlias = tuple[float, float]
 
 

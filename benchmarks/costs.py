@@ -22,6 +22,7 @@ from typing import Any, Final
 from benchmarks import chain, ring
 from benchmarks.child import measured
 
+#: Names and numbers of cycles; ``ring-N`` and ``chain-N`` are those of the modules of these names.
 RUNS: Final = (
     ("slider-crank", 1.0),
     ("four-bar", 1.0),
@@ -37,7 +38,6 @@ RUNS: Final = (
     ("chain-20", 1.0),
     ("chain-40", 1.0),
 )
-"""Names and numbers of cycles; ``ring-N`` and ``chain-N`` are those of the modules of these names."""
 _MADE: Final = {"ring": ring.case, "chain": chain.case}
 
 

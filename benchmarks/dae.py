@@ -59,8 +59,7 @@ PROBLEMS: Final[dict[str, Callable[[], DaeBenchmark]]] = {
     "car axis": caraxis,
     "Andrews' squeezer": andrews,
 }
-REACHED: Final = 0.5
-"""Digits from which a run counts as one that has found the solution."""
+REACHED: Final = 0.5  #: Digits from which a run counts as one that has found the solution.
 
 
 def solve(problem: DaeBenchmark, tolerance: float) -> dict[str, Any]:

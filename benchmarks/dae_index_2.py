@@ -181,8 +181,7 @@ def _charges(gate: Any, source: Any, drain: Any) -> tuple[Any, Any, Any]:
     return capacity * (2.0 / 3.0 * channel + gamma * np.sqrt(back)), side, side
 
 
-PERIOD, RISES, HIGH, FALLS = 120e-9, 50e-9, 60e-9, 110e-9
-"""Of the voltage that drives the pump [s]."""
+PERIOD, RISES, HIGH, FALLS = 120e-9, 50e-9, 60e-9, 110e-9  #: Of the voltage that drives the pump [s].
 
 
 def _pump(t: float, y: Any) -> Any:

@@ -21,34 +21,18 @@ TINY = 1e-30
 
 @dataclass(frozen=True)
 class DaeBenchmark:
-    """A problem.
+    """A problem."""
 
-    Attributes
-    ----------
-    name
-        Short name.
-    fun
-        ``fun(t, y)``, real or complex.
-    mass
-        Mass matrix, shape (n, n).
-    index
-        Index of each variable, shape (n,).
-    y0, t_end, end
-        Start, end of time and solution there.
-    compared
-        Number of first components that digits are counted of.
-    relative
-        Whether errors count relative to the value alone, as in the IVP Test Set, or to |y| + 1.
-    """
-
-    name: str
-    fun: Callable[[float, Any], Any]
-    mass: FloatArray
-    index: tuple[int, ...]
+    name: str  #: Short name.
+    fun: Callable[[float, Any], Any]  #: ``fun(t, y)``, real or complex.
+    mass: FloatArray  #: Mass matrix, shape (n, n).
+    index: tuple[int, ...]  #: Index of each variable, shape (n,).
+    #: Start, end of time and solution there.
     y0: FloatArray
     t_end: float
     end: FloatArray
-    compared: int
+    compared: int  #: Number of first components that digits are counted of.
+    #: Whether errors count relative to the value alone, as in the IVP Test Set, or to |y| + 1.
     relative: bool = True
 
     def jac(self, t: float, y: FloatArray) -> FloatArray:
@@ -158,6 +142,7 @@ def caraxis() -> DaeBenchmark:
     )
 
 
+#: Andrews' squeezer: masses, points, inertias and lengths under their usual names.
 _A = SimpleNamespace(
     m1=0.04325, m2=0.00365, m3=0.02373, m4=0.00706, m5=0.0705, m6=0.00706, m7=0.05498,
     xa=-0.06934, ya=-0.00227, xb=-0.03635, yb=0.03273, xc=0.014, yc=0.072, c0=4530.0,
@@ -166,7 +151,6 @@ _A = SimpleNamespace(
     ss=35e-3, sa=1874e-5, sb=1043e-5, sc=18e-3, sd=2e-2, ta=2308e-5, tb=916e-5,
     u=4e-2, ua=1228e-5, ub=449e-5, zf=2e-2, zt=4e-2, fa=1421e-5, moment=33e-3,
 )  # fmt: skip
-"""Andrews' squeezer: masses, points, inertias and lengths under their usual names."""
 
 
 def _inertia(y: Any) -> Any:

@@ -39,40 +39,30 @@ FloatArray = NDArray[np.float64]
 Row = dict[str, Any]
 
 GENERAL: Final = (1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6)
-REDUCED: Final = (10.0, 3.0, 1.0, 0.3, 0.1, 0.03)
-"""What all tolerances of ``vsv`` are multiplied by."""
+REDUCED: Final = (10.0, 3.0, 1.0, 0.3, 0.1, 0.03)  #: What all tolerances of ``vsv`` are multiplied by.
 EXACT: Final = 1e-9
 EXACT_REDUCED: Final = 1e-3
 STEPS: Final = (1e-3, 5e-4, 2.5e-4, 1.25e-4)
-FINEST: Final = 3.125e-5
-"""Steps of Exudyn, and that of its reference [s]."""
+FINEST: Final = 3.125e-5  #: Steps of Exudyn, and that of its reference [s].
+#: Spring that holds the vane along its axis in place of its faces.
 COLLAR: Final = {
     "between": ["ground", "vane"],
     "first_point": "0, 0, -1 m",
     "second_point": "0, 0, 390 mm",
     "stiffness": "1e6 N/m",
 }
-"""Spring that holds the vane along its axis in place of its faces."""
 PASSES: Final = 3
 
 
 @dataclass(frozen=True)
 class Way:
-    """A way to simulate the mechanism.
+    """A way to simulate the mechanism."""
 
-    Attributes
-    ----------
-    name
-        Shown in the table.
-    solve
-        ``solve(setting)`` returns the seconds of the thread and, every 5 ms, the vane angle [rad], shape
-        (n_t,), and the place of the trunnion [m], shape (2, n_t), empty where it is not known.
-    settings, finest
-        Tolerances or steps, and that of the reference.
-    """
-
-    name: str
+    name: str  #: Shown in the table.
+    #: ``solve(setting)`` returns the seconds of the thread and, every 5 ms, the vane angle [rad], shape
+    #: (n_t,), and the place of the trunnion [m], shape (2, n_t), empty where it is not known.
     solve: Callable[[float], tuple[float, FloatArray, FloatArray]]
+    #: Tolerances or steps, and that of the reference.
     settings: Sequence[float]
     finest: float
 

@@ -31,27 +31,16 @@ LEVEL = np.array([6e-6, 8e-6, 0.0, 0.0, 1e-4, -2e-4, 0.0, 0.0])
 TILTED = np.array([6e-6, 8e-6, 3e-4, -2e-4, 1e-4, -2e-4, 0.01, -0.02])
 OMEGA = 100.0
 POINTS = 60
-LIMITS = {"no tilt": 1.0, "tilt": 4.0}
-"""Milliseconds asked for."""
+LIMITS = {"no tilt": 1.0, "tilt": 4.0}  #: Milliseconds asked for.
 
 
 @dataclass
 class General:
-    """The same film with general sparse matrices and no structure.
+    """The same film with general sparse matrices and no structure."""
 
-    Attributes
-    ----------
-    fields
-        Conductances and sources of all cells.
-    loads
-        Derivatives of the wrench by the pressure, shape (cells, 5).
-    active
-        Cells with a full film.
-    """
-
-    fields: FilmFields
-    loads: FloatArray
-    active: NDArray[np.bool_]
+    fields: FilmFields  #: Conductances and sources of all cells.
+    loads: FloatArray  #: Derivatives of the wrench by the pressure, shape (cells, 5).
+    active: NDArray[np.bool_]  #: Cells with a full film.
 
     def matrix(self) -> csc_matrix:
         """Return the matrix of all cells."""

@@ -25,12 +25,10 @@ TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "mebdf_held_out
 SOLVERS: Final = ("MEBDF", "BDF", "CVODE")
 DIGITS: Final = (4.0, 6.0)
 TOLERANCES: Final = 10.0 ** -np.arange(2.0, 9.1, 0.5)
-SEEDS: Final = 10
-"""Problems of each family."""
+SEEDS: Final = 10  #: Problems of each family.
 
 Rng = np.random.Generator
-Problem = tuple[Callable[[float, Any], Any], Any, float]
-"""Right-hand side, start and end."""
+Problem = tuple[Callable[[float, Any], Any], Any, float]  #: Right-hand side, start and end.
 
 
 def _oscillator(rng: Rng) -> Problem:

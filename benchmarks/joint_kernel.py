@@ -21,8 +21,8 @@ from tribodyn.kernels.joints.pose import N_MOTION, N_WRENCH
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
+#: Attitude and rates while the vane turns under load, a tilted trunnion [m, rad, m/s, rad/s].
 STATE = np.array([-3.9e-6, 6.57e-6, 6.46e-4, 1.31e-3, 3.6e-6, -2.4e-6, -2.8e-4, 3.8e-4])
-"""Attitude and rates while the vane turns under load, a tilted trunnion [m, rad, m/s, rad/s]."""
 OMEGA = 0.3
 GRIDS = ((48, 8), (96, 16), (192, 16), (256, 32), (512, 64))
 PAIRS, CALLS = 7, 50

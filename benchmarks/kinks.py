@@ -28,10 +28,10 @@ from tribodyn.kernels.joints.collar import Collar
 from tribodyn.kernels.mebdf.drive import AFTER_STEP
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 
+#: About the default, whose counts alone scatter by some percent: means are taken.
 TOLERANCES: Final = (0.9 * RTOL, RTOL, 1.1 * RTOL)
-"""About the default, whose counts alone scatter by some percent: means are taken."""
+#: What lets compiled code pause by the clock, where here it pauses after every step.
 TICKING: Final = "tribodyn.integrate.mebdf._ticking"
-"""What lets compiled code pause by the clock, where here it pauses after every step."""
 
 
 @entry

@@ -25,8 +25,7 @@ from tribodyn.integrate import MEBDF
 
 FloatArray = NDArray[np.float64]
 EXACT = {"rtol": 1e-8, "atol": 1e-10}
-MOST = 5000
-"""Calls of a right-hand side after which a run is given up."""
+MOST = 5000  #: Calls of a right-hand side after which a run is given up.
 
 
 class GaveUpError(Exception):
@@ -41,8 +40,7 @@ class Large(NamedTuple):
     y0: FloatArray
     t_end: float
     pattern: Any
-    exact: FloatArray | None = None
-    """The end, where it is known in closed form."""
+    exact: FloatArray | None = None  #: The end, where it is known in closed form.
 
 
 def second_differences(n: int) -> Any:
@@ -112,8 +110,7 @@ def beam(n: int) -> Large:
     return Large(f"beam, {n}", fun, np.zeros(2 * m), 10.0, without_zeros(pattern), beam_at(10.0, m))
 
 
-FREQUENCY, DAMPING = 0.7, 0.05
-"""Of the beam's load, and what its speed counts beside its deflection."""
+FREQUENCY, DAMPING = 0.7, 0.05  #: Of the beam's load, and what its speed counts beside its deflection.
 
 
 def beam_at(t: float, m: int) -> FloatArray:

@@ -13,12 +13,9 @@ from benchmarks.problems import PROBLEMS, Benchmark
 from mebdf import MEBDF
 from mebdf.kernels.state import HISTORY
 
-LONG_ENOUGH = 0.01
-"""Least time of a measured call [s]."""
-AT_ONCE = 1000
-"""Steps in compiled code between two looks of Python."""
-MOST_CALLS = 10**7
-"""Evaluations after which a run is ended as failed."""
+LONG_ENOUGH = 0.01  #: Least time of a measured call [s].
+AT_ONCE = 1000  #: Steps in compiled code between two looks of Python.
+MOST_CALLS = 10**7  #: Evaluations after which a run is ended as failed.
 _NUMBERS = nb.types.CPointer(nb.float64)
 _SIGNATURE = nb.void(nb.float64, _NUMBERS, _NUMBERS, _NUMBERS)
 

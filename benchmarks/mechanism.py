@@ -28,15 +28,12 @@ from tribodyn.mechanism.system import MechanismSystem
 FloatArray = NDArray[np.float64]
 
 DURATION: Final = 0.096
-EVERY: Final = 2e-4
-"""Time between rows [s], a multiple of Exudyn's steps."""
+EVERY: Final = 2e-4  #: Time between rows [s], a multiple of Exudyn's steps.
 TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 EXACT: Final = 1e-11
-STEPS: Final = (1e-4, 4e-5, 2e-5, 1e-5, 5e-6)
-"""Of Exudyn [s]."""
+STEPS: Final = (1e-4, 4e-5, 2e-5, 1e-5, 5e-6)  #: Of Exudyn [s].
 PAIRS: Final = 5
-SPECTRAL_RADIUS: Final = 0.9
-"""Of the generalised-α method, Exudyn's default."""
+SPECTRAL_RADIUS: Final = 0.9  #: Of the generalised-α method, Exudyn's default.
 SPEED: Final = 2.0 * np.pi * 5000.0 / 60.0
 
 
@@ -83,19 +80,19 @@ def _ratios(found: dict[str, Any]) -> list[dict[str, float]]:
     ]
 
 
+#: Mass [kg], place of the centre on the line that all lie on as drawn [m], principal moments [kg m²].
 BODIES: Final = {
     "crank": (0.3, 0.0, (1e-4, 1e-4, 1e-4)),
     "rod": (0.21, 0.11, (2e-5, 2.5e-4, 2.5e-4)),
     "slider": (0.14, 0.17, (1e-4, 1e-4, 1e-4)),
 }
-"""Mass [kg], place of the centre on the line that all lie on as drawn [m], principal moments [kg m²]."""
+#: Name, type, bodies, place [m], and the axes that Exudyn holds: of a flat mechanism each once.
 JOINTS: Final = (
     ("main", "revolute", "ground", "crank", 0.0, (1, 1, 1, 1, 1, 0)),
     ("crankpin", "revolute", "crank", "rod", 0.05, (1, 1, 1, 1, 1, 0)),
     ("wrist", "revolute", "rod", "slider", 0.17, (1, 1, 0, 0, 0, 0)),
     ("guide", "prismatic", "ground", "slider", 0.17, (0, 1, 1, 1, 1, 1)),
 )
-"""Name, type, bodies, place [m], and the axes that Exudyn holds: of a flat mechanism each once."""
 
 
 def times(duration: float) -> FloatArray:

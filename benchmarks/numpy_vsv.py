@@ -24,29 +24,20 @@ from tribodyn.kernels.vsv.layout import O2_X, O3_Z, OV_X, OV_Y, PHI_X, PHI_Y, TH
 FloatArray = NDArray[np.float64]
 
 
-UP: Final = np.array([0.0, 1.0, 0.0])
-"""Along the casing axis, the direction in which the ring slides."""
+UP: Final = np.array([0.0, 1.0, 0.0])  #: Along the casing axis, the direction in which the ring slides.
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Kinematics of an instant.
+    """Kinematics of an instant."""
 
-    Attributes
-    ----------
-    theta_v, theta_b, omega_v
-        Vane and ring angle [rad], vane speed [rad/s].
-    rows
-        Derivatives of O2, n, O3, θ_b, θ_v, O_v (x, y), φ_x, φ_y by (θ_a, e_x, e_y, φ_x, φ_y), shape (15, 5).
-    bias
-        Their accelerations with the clearance accelerations zero, shape (15,).
-    """
-
+    #: Vane and ring angle [rad], vane speed [rad/s].
     theta_v: float
     theta_b: float
     omega_v: float
+    #: Derivatives of O2, n, O3, θ_b, θ_v, O_v (x, y), φ_x, φ_y by (θ_a, e_x, e_y, φ_x, φ_y), shape (15, 5).
     rows: FloatArray
-    bias: FloatArray
+    bias: FloatArray  #: Their accelerations with the clearance accelerations zero, shape (15,).
 
 
 class NumpyVsv:

@@ -19,35 +19,21 @@ from benchmarks.vsv_case import one, problem_of, vsv_case
 from tribodyn.papers.cheng_2022.reduced.times import output_times
 
 POINT: Final = {"joint.contact": "point-lankarani-nikravesh"}
-EVERY: Final = 5e-3
-"""Time between rows of Exudyn's runs, as ``run.output_interval`` [s]."""
+EVERY: Final = 5e-3  #: Time between rows of Exudyn's runs, as ``run.output_interval`` [s].
+#: Cycles over which slow peers are run: a start, a long stretch, a reversal and 0.3 s after it.
 PART: Final = 0.55
-"""Cycles over which slow peers are run: a start, a long stretch, a reversal and 0.3 s after it."""
 
 
 @dataclass(frozen=True)
 class Peer:
-    """A way to simulate the mechanism.
+    """A way to simulate the mechanism."""
 
-    Attributes
-    ----------
-    name
-        Shown in the table.
-    setting
-        Tolerances or step.
-    cycles
-        Drive cycles over which it is compared.
-    run
-        ``run(cycles)`` returns times, columns and seconds of the thread.
-    changes
-        Keys of the case that the reference for its accuracy has.
-    """
-
-    name: str
-    setting: str
-    cycles: float
+    name: str  #: Shown in the table.
+    setting: str  #: Tolerances or step.
+    cycles: float  #: Drive cycles over which it is compared.
+    #: ``run(cycles)`` returns times, columns and seconds of the thread.
     run: Callable[[float], dict[str, Any]]
-    changes: tuple[tuple[str, Any], ...] = ()
+    changes: tuple[tuple[str, Any], ...] = ()  #: Keys of the case that the reference for its accuracy has.
 
 
 def setting(rtol: float, tighter: float) -> str:

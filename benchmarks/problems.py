@@ -27,31 +27,17 @@ JAC = nb.void(nb.float64, nb.float64[::1], nb.float64[:, ::1])
 
 @dataclass(frozen=True)
 class Benchmark:
-    """A problem.
+    """A problem."""
 
-    Attributes
-    ----------
-    name
-        Short name.
-    rhs, jac
-        ``rhs(t, y, f)`` and ``jac(t, y, jacobian)`` fill their last argument.
-    y0
-        Initial state, shape (n,).
-    t_end
-        End; the start is 0.
-    end
-        Solution at the end, shape (n,).
-    scale
-        The absolute tolerance is rtol times this: a number, or shape (n,) where components are of
-        very different size.
-    """
-
-    name: str
+    name: str  #: Short name.
+    #: ``rhs(t, y, f)`` and ``jac(t, y, jacobian)`` fill their last argument.
     rhs: Callable[..., None]
     jac: Callable[..., None]
-    y0: FloatArray
-    t_end: float
-    end: FloatArray
+    y0: FloatArray  #: Initial state, shape (n,).
+    t_end: float  #: End; the start is 0.
+    end: FloatArray  #: Solution at the end, shape (n,).
+    #: The absolute tolerance is rtol times this: a number, or shape (n,) where components are of very
+    #: different size.
     scale: Any = 1.0
 
     @property
@@ -211,6 +197,7 @@ _RATES = np.array(
 )
 _FIRST = np.array([0, 1, 4, 6, 6, 6, 8, 8, 10, 10, 12, 9, 13, 0, 2, 3, 3, 15, 15, 16, 18, 18, 0, 0, 19])
 _SECOND = np.array([-1, 3, 1, -1, -1, 5, -1, 5, 1, 0, -1, 1, -1, 5, -1, -1, -1, -1, -1, 5, -1, -1, 3, 18, -1])
+#: POLLU: reaction i consumes species FIRST and SECOND and gives those of GIVES (−1: none).
 _GIVES = np.array(
     [
         *([1, 2, -1], [0, -1, -1], [0, 5, -1], [4, 4, 7], [7, -1, -1], [4, 7, -1], [4, 7, 9]),
@@ -219,7 +206,6 @@ _GIVES = np.array(
         *([0, 2, -1], [18, -1, -1], [19, -1, -1], [0, 18, -1]),
     ]
 )
-"""POLLU: reaction i consumes species FIRST and SECOND and gives those of GIVES (−1: none)."""
 
 
 @nb.njit(RHS, cache=True)
@@ -394,6 +380,7 @@ _PENDULUM_END = [
     *(-0.0337480180609545, 0.0588130114652499, -0.4931031514390188),
 ]
 
+#: All problems by name.
 PROBLEMS = {
     problem.name: problem
     for problem in (
@@ -447,4 +434,3 @@ PROBLEMS = {
         _made("RING", _ring_rhs, _ring_jac, np.zeros(15), 1e-3, _RING_END, 1e-2),
     )
 }
-"""All problems by name."""

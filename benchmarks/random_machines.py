@@ -18,8 +18,7 @@ from typing import Any, Final
 import numpy as np
 
 SOURCE: Final = Path(__file__).parents[1] / "tests" / "faults" / "test_random_physics.py"
-COUNTS: Final = {"MECHANISM": 500, "UNDAMPED": 25, "DRY": 100}
-"""How many machines of each kind are drawn."""
+COUNTS: Final = {"MECHANISM": 500, "UNDAMPED": 25, "DRY": 100}  #: How many machines of each kind are drawn.
 _RESIDUALS: Final = ("energy_residual", "clearance_energy_residual")
 
 

@@ -28,8 +28,8 @@ from benchmarks.child import measured
 
 NUMBERS: Final = (5, 10, 20, 40, 80)
 MB: Final = 1024.0**2
+#: Axial play below, so that no vane slides out of its bore: ``vsv-free`` has a face above alone.
 LOWER_PLAY: Final = "50 um"
-"""Axial play below, so that no vane slides out of its bore: ``vsv-free`` has a face above alone."""
 
 
 def case(n: int, cycles: float = 1.0) -> Any:

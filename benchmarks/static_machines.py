@@ -25,12 +25,10 @@ from tribodyn.core.errors import TribodynError
 from tribodyn.results.reading import column
 
 MACHINES: Final = 200
-LIMIT: Final = 2.0
-"""Processor time of one run [s]."""
+LIMIT: Final = 2.0  #: Processor time of one run [s].
 _BEST: Final = "complete"
 _POSITIONS: Final = 12
-_REACHED: Final = 0.1
-"""Part of a dynamic run that is enough for a comparison."""
+_REACHED: Final = 0.1  #: Part of a dynamic run that is enough for a comparison.
 _REASONS: Final = (
     "along a freedom that no joint, drive or spring holds",
     "come closer than the contact law reaches",

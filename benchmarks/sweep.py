@@ -31,12 +31,12 @@ from tribodyn.studies.work import compute
 POINTS = 16
 TARGET = 1.8
 ROUNDS = 2
+#: Drive cycles of a point. The more, the less the start of the workers counts.
 TWO, FIFTY = "12.566 s", "314.16 s"
-"""Drive cycles of a point. The more, the less the start of the workers counts."""
 FIRST, LATER, PLAIN, COMMAND = "first sweep", "later sweep", "plain processes", "command"
 FIRST_FIFTY = "first sweep, 50 cycles"
+#: What is timed; points of two cycles unless it says otherwise.
 KINDS = (FIRST, LATER, PLAIN, COMMAND, FIRST_FIFTY)
-"""What is timed; points of two cycles unless it says otherwise."""
 
 
 def case_and_clearances(duration: str, points: int) -> tuple[Case, list[str]]:

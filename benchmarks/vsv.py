@@ -23,8 +23,8 @@ from benchmarks.vsv_case import NATIVE, RTOL, accurate, errors, one, reference
 from tribodyn.papers.cheng_2022.reduced.checks import CLEARANCE, WHOLE, balance_columns
 
 SOLVERS = (NATIVE, "cvode", "bdf", "radau", "lsoda")
+#: Relative tolerances, and what the absolute ones are multiplied by.
 LADDER = ((1e-3, 1.0), (1e-4, 1.0), (1e-4, 0.1), (1e-5, 0.1), (1e-5, 0.01))
-"""Relative tolerances, and what the absolute ones are multiplied by."""
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 PAIRS = 5
 

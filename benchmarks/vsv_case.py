@@ -25,12 +25,10 @@ from tribodyn.papers.cheng_2022.reduced.times import output_times
 
 FloatArray = NDArray[np.float64]
 
+#: CVODE without Python between its steps, beside the names of ``tribodyn.integrate.SOLVERS``.
 NATIVE: Final = "cvode-native"
-"""CVODE without Python between its steps, beside the names of ``tribodyn.integrate.SOLVERS``."""
-RTOL: Final = load_case("vsv").solver.rtol
-"""Relative tolerance that users get."""
-FAR, NEAR = 0.1, 0.05
-"""Times after a reversal between which accuracy is asked for [s]."""
+RTOL: Final = load_case("vsv").solver.rtol  #: Relative tolerance that users get.
+FAR, NEAR = 0.1, 0.05  #: Times after a reversal between which accuracy is asked for [s].
 
 
 def constants(data: VsvData) -> SimpleNamespace:

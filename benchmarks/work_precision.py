@@ -28,15 +28,13 @@ TARGET = Path(__file__).parents[1] / "docs" / "_static" / "mebdf_work_precision"
 COMPILED = 10.0 ** -np.arange(2.5, 11.1, 0.25)
 IN_PYTHON = 10.0 ** -np.arange(3.0, 10.1, 1.0)
 TOO_LONG_IN_PYTHON = ("RING", "VDP11")
-REPEATS = 5
-"""Compiled runs are timed this often; the shortest counts. The solvers take turns."""
+REPEATS = 5  #: Compiled runs are timed this often; the shortest counts. The solvers take turns.
 DIGITS = (5.0, 7.5)
 
-Everything = dict[str, dict[str, list[dict[str, Any]]]]
-"""Runs by problem and solver."""
+Everything = dict[str, dict[str, list[dict[str, Any]]]]  #: Runs by problem and solver.
 Run = Callable[[Benchmark, float], dict[str, Any]]
+#: Given the exact Jacobian too; the evaluations for differences are added in the ratios.
 DIFFERENCED = "MEBDF, J by differences"
-"""Given the exact Jacobian too; the evaluations for differences are added in the ratios."""
 COMPILED_SOLVERS: dict[str, Run] = {
     "MEBDF": mebdf,
     DIFFERENCED: partial(mebdf, differenced=True),
@@ -51,6 +49,7 @@ QUANTITIES = (
     ("lu", 1.0, "LU decompositions"),
     ("seconds", 1e3, "time [ms]"),
 )
+#: How the solvers drawn look.
 LOOKS: dict[str, dict[str, Any]] = {
     "MEBDF": {"color": VERMILION, "linewidth": 1.8},
     "CVODE": {"color": INK, "linewidth": 1.0},
@@ -58,7 +57,6 @@ LOOKS: dict[str, dict[str, Any]] = {
     "SciPy Radau": {"color": GREEN, "linewidth": 1.0, "linestyle": "-."},
     "SciPy LSODA": {"color": ORANGE, "linewidth": 1.0, "linestyle": ":"},
 }
-"""How the solvers drawn look."""
 
 
 def timed(problem: Benchmark, rtol: float) -> dict[str, dict[str, Any]]:

@@ -25,8 +25,7 @@ import psutil
 from benchmarks import workbench_page, workbench_pins
 from benchmarks.workbench_hands import Hand, family, kept_busy, killed
 
-DRAG: Final = 20.0
-"""How long a slider is dragged [s]."""
+DRAG: Final = 20.0  #: How long a slider is dragged [s].
 SOCKETS: Final = 20
 MINUTES: Final = 10.0
 ROOT: Final = Path(__file__).parents[1]

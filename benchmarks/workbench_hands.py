@@ -19,17 +19,12 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 from tribodyn.workbench.server_state import MOST_CASES, Rules
 
 KEY: Final = "joint.clearance"
-PER_SECOND: Final = 50
-"""Positions of a slider that a page sends in a second, as fast as it may."""
-WATCHED: Final = 5.0
-"""Time between two looks at the memory [s]."""
-ROOM: Final = Rules().room
-"""Size of the pictures that the server keeps [bytes]."""
+PER_SECOND: Final = 50  #: Positions of a slider that a page sends in a second, as fast as it may.
+WATCHED: Final = 5.0  #: Time between two looks at the memory [s].
+ROOM: Final = Rules().room  #: Size of the pictures that the server keeps [bytes].
 LARGEST: Final = 100_000_000
-_LOOK: Final = 0.2
-"""How long one looks for who is busy [s]."""
-_LATE: Final = 2.0
-"""A picture is late that takes so many times what 95 % of the others do."""
+_LOOK: Final = 0.2  #: How long one looks for who is busy [s].
+_LATE: Final = 2.0  #: A picture is late that takes so many times what 95 % of the others do.
 
 
 class Hand:

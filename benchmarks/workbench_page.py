@@ -19,10 +19,10 @@ from playwright.sync_api import Page, Response, sync_playwright
 from benchmarks.workbench_hands import KEY, PER_SECOND
 
 BROWSER: Final = os.environ.get("TRIBODYN_BROWSER") or shutil.which("chromium") or "chromium"
+#: WebGL alone in software: a page put together in software by it, too, costs a third more.
 OPTIONS: Final = ("--no-sandbox", "--use-angle=swiftshader-webgl", "--enable-unsafe-swiftshader")
-"""WebGL alone in software: a page put together in software by it, too, costs a third more."""
+#: Ends in a truth: a run that it returned would be held by Playwright.
 DRAWN: Final = "() => typeof pageState === 'object' && pageState.shown && !requests.awaited"
-"""Ends in a truth: a run that it returned would be held by Playwright."""
 DRAG: Final = """async ([key, apart, seconds]) => {
   const slider = controlAt(key).querySelector("input[type=range]");
   const moved = new Map();

@@ -16,27 +16,23 @@ from playwright.sync_api import CDPSession, Page, sync_playwright
 from benchmarks.workbench_hands import line
 from benchmarks.workbench_page import BROWSER, DRAWN, OPTIONS
 
-PINS: Final = 3
-"""Runs that are pinned at a time."""
-STEPS: Final = 40
-"""Positions of the pointer in one gesture."""
-APART: Final = 0.04
-"""Time between two of them [s]."""
+PINS: Final = 3  #: Runs that are pinned at a time.
+STEPS: Final = 40  #: Positions of the pointer in one gesture.
+APART: Final = 0.04  #: Time between two of them [s].
+#: Whether numbers are those of the run shown and requested, unless the page gives the reason why not.
 OWN: Final = """() => {
   const whose = document.getElementById("whose").textContent;
   const { values } = pageState.shown;
   const refused = !document.getElementById("error").hidden;
   return whose.endsWith(valuesInWords(values)) && (refused || sameValues(values, pageState.values));
 }"""
-"""Whether numbers are those of the run shown and requested, unless the page gives the reason why not."""
+#: Size of the runs that the page keeps, some large and some small [bytes].
 RUNS: Final = """() => {
   const { shown, trail, pins } = pageState;
   const buffers = [shown, ...trail, ...pins].map(({ clock }) => clock.time.buffer);
   return [...new Set(buffers)].reduce((size, buffer) => size + buffer.byteLength, 0);
 }"""
-"""Size of the runs that the page keeps, some large and some small [bytes]."""
-_FIRST: Final = 10
-"""Looks at the page before which it fills what it may keep."""
+_FIRST: Final = 10  #: Looks at the page before which it fills what it may keep.
 
 
 def pinned(address: str, minutes: float, picture: Path | None = None) -> dict[str, float]:

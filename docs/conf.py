@@ -56,8 +56,8 @@ LITERAL_OR_BAR = re.compile(r"(``.*?``)|\|")
 
 
 def _skip_member(app: Any, what: str, name: str, member: Any, skip: bool, options: Any) -> bool | None:
-    """Leave out fields of named tuples, which the class docstring describes, and type aliases."""
-    return True if type(member).__name__ == "_tuplegetter" or isinstance(member, GenericAlias) else None
+    """Leave out type aliases."""
+    return True if isinstance(member, GenericAlias) else None
 
 
 def _bars_are_magnitudes(app: Any, what: str, name: str, member: Any, options: Any, lines: list[str]) -> None:

@@ -31,12 +31,11 @@ LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, math.radians(20.0), math
 INERTIAS = Inertias(0.82, 0.1232, 0.6744, 0.253, 6.22e-4, 8.33e-4, 7.20e-2, 2.16e-3, 2.16e-3)
 DRIVE = CrankMotion(math.radians(-16.0), math.radians(20.0), 1.0)
 TABLE_3 = AirLoads(0.4, 1.2, 0.84, math.radians(90.0), 0.01)
+#: Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s], a twentieth of the default ones.
 ATOL = (1e-11, 1e-9, 1e-7, 1e-5)
-"""Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s], a twentieth of the default ones."""
 
 Columns = dict[str, FloatArray]
-OTHER_ROUNDINGS = range(10)
-"""Values of ``--tolerance-factor``."""
+OTHER_ROUNDINGS = range(10)  #: Values of ``--tolerance-factor``.
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -26,8 +26,7 @@ class Published:
     end: Any
     options: dict[str, Any] = field(default_factory=dict)
     start: float = 0.0
-    unit: float = 1.0
-    """Absolute tolerance over the relative one."""
+    unit: float = 1.0  #: Absolute tolerance over the relative one.
 
     def digits(self, y: Any) -> float:
         """Return the correct digits of a solution at the end, mixed absolute and relative."""
@@ -184,8 +183,8 @@ def fekete(n: int = 20) -> Published:
 
 _FROM = np.array([1, 2, 2, 3, 3, 4, 5, 6, 7, 7, 8, 8, 9, 11, 11, 12, 12, 13])
 _TO = np.array([2, 3, 6, 4, 5, 5, 10, 5, 4, 8, 5, 10, 8, 9, 12, 7, 8, 11])
+#: Pipes by their ends, and where the pressure of each node stands behind those of nodes 5 and 8.
 _PLACES = np.array([0, 2, 3, 4, 5, 0, 6, 7, 1, 8, 9, 10, 11, 12])
-"""Pipes by their ends, and where the pressure of each node stands behind those of nodes 5 and 8."""
 
 
 @nb.njit

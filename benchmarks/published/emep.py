@@ -5,6 +5,7 @@ import numpy as np
 
 from benchmarks.published.definitions import Published
 
+#: Number of the rate, from 301 on of photolysis, then what reacts and what comes of it.
 _REACTIONS = """
 1 36>14; 5 1+36>2; 7 38>36; 8 38>2*37; 11 1+14>2; 12 2+14>39; 13 14+37>15; 14 14+15>37; 15 1+39>2*2
 17 1+15>2+37; 19 2+39>1+2; 20 2+39>40; 21 2+37>16; 26 17+39>15+16; 29 40>2+39; 30 15+37>; 31 17+37>15
@@ -33,7 +34,7 @@ _REACTIONS = """
 316 50>1.56*11+.22*12+15+37; 316 51>11+12+15; 316 52>12+24+37; 316 48>15+30+34+37; 316 53>15+30+32+37
 316 59>13+59
 """
-"""Number of the rate, from 301 on of photolysis, then what reacts and what comes of it."""
+#: Number of the rate, its factor, and the temperature in its exponent.
 _ARRHENIUS = """
 7 5.1e8 100; 11 1.8e-12 -1370; 12 1.2e-13 -2450; 13 1.9e-12 -1000; 14 1.4e-14 -600; 15 1.8e-11 110
 17 3.7e-12 240; 19 7.2e-14 -1414; 29 7.1e14 -11080; 30 4.8e-11 250; 31 2.9e-12 -160; 33 7.7e-12 -2100
@@ -47,14 +48,13 @@ _ARRHENIUS = """
 148 2.2e-11 0; 149 3.7e-11 0; 156 2e-11 0; 157 8e-18 0; 161 3.35e-11 0; 163 7.8e-13 0; 219 2e-11 0
 221 1.1e-11 0; 222 1.7e-11 0; 223 2.4e-11 0; 234 1.37e-11 0; 235 1.7e-11 0
 """
-"""Number of the rate, its factor, and the temperature in its exponent."""
 _SUN = np.array([
     [1.23e-3, 2e-4, 1.45e-2, 2.2e-5, 3e-6, 5.4e-5, 6.65e-5, 1.35e-5, 2.43e-5, 5.4e-4, 2.16e-4, 5.4e-5,
      3.53e-2, 8.94e-2, 3.32e-5, 2.27e-5],
     [0.6, 1.4, 0.4, 0.75, 1.25, 0.79, 0.6, 0.94, 0.88, 0.79, 0.79, 0.79, 0.081, 0.059, 0.57, 0.62],
 ])  # fmt: skip
+#: Speeds at which 47 to 53 are deposited, in cm/s, by day.
 _DEPOSITED = np.array([0.5, 0.2, 0.5, 0.2, 0.1, 0.5, 0.3])
-"""Speeds at which 47 to 53 are deposited, in cm/s, by day."""
 _SHARES = np.array([0.07689, 0.41444, 0.03642, 0.03827, 0.24537, 0.13957])
 _MASSES = np.array([30.0, 58.0, 28.0, 42.0, 106.0, 46.0])
 _M, _T, _HEIGHT = 2.55e19, 298.0, 1.2e5

@@ -15,8 +15,8 @@ C_GATE, C_BULK, C_NODE = 0.6e-4, 2.4e-5, 0.5e-4
 SUPPLY, BULK = 5.0, -2.5
 LEAK, THERMAL, SHORTENING, BARRIER = 1e-14, 25.85, 0.02, 0.87
 DEPLETION = (-2.43, 0.2, 1.28, 5.35e-4, 5.35e-4)
+#: Threshold, body factor, surface potential, gain forward and backward; the last one as the set has it.
 ENHANCEMENT = (0.2, 0.035, 1.01, 1.748e-3, 1.748e-4)
-"""Threshold, body factor, surface potential, gain forward and backward; the last one as the set has it."""
 
 END = 80.0
 KINKS = np.arange(5.0, END, 5.0)

@@ -34,8 +34,7 @@ SURFACES = {
     "few wavelengths": SelfAffine(1e-6, 0.8, roll_off=16e-6, shortest=8e-6),
     "many wavelengths": SelfAffine(1e-6, 0.8, roll_off=64e-6, shortest=6e-6),
 }
-LOADS = np.geomspace(3e-4, 0.2, 8)
-"""Pressure over composite modulus and root-mean-square gradient."""
+LOADS = np.geomspace(3e-4, 0.2, 8)  #: Pressure over composite modulus and root-mean-square gradient.
 
 
 class Solution(NamedTuple):

@@ -18,8 +18,7 @@ from tribodyn.presets.journal.case import JournalCase
 from tribodyn.presets.journal.system import system_of
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
-COARSE, FINE = 2e-6, 1e-7
-"""Fixed steps of the explicit run [s]."""
+COARSE, FINE = 2e-6, 1e-7  #: Fixed steps of the explicit run [s].
 
 
 def fixed_step(

@@ -21,10 +21,8 @@ import tribodyn as td
 from tribodyn.contact import Liner
 
 POISSON = 0.34
-RATIOS = (10.0, 1.0)
-"""Half width of the contact over the thickness."""
-THICKNESSES = (0.0, 0.25, 0.5, 1.0, 1.5, 2.0)
-"""Of the liner of the vane's bushing [mm]."""
+RATIOS = (10.0, 1.0)  #: Half width of the contact over the thickness.
+THICKNESSES = (0.0, 0.25, 0.5, 1.0, 1.5, 2.0)  #: Of the liner of the vane's bushing [mm].
 POINTS = 200
 CYCLES = 2
 

@@ -15,6 +15,7 @@ from measures.base import Numbers
 
 from tribodyn.papers.cheng_2022.runs import Runs
 
+#: Numbers by name, with what measures them.
 NUMBERS: Final[Numbers] = {
     **contact.NUMBERS,
     **laws_in_the_vane.NUMBERS,
@@ -26,7 +27,6 @@ NUMBERS: Final[Numbers] = {
     **mebdf.NUMBERS,
     **stored.NUMBERS,
 }
-"""Numbers by name, with what measures them."""
 
 
 def main() -> None:

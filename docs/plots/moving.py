@@ -29,14 +29,12 @@ JOINT: Final = "wrist"
 CRANK: Final = "crank"
 FRAMES: Final = 48
 COLOURS: Final = 64
-PIN: Final = 0.72
-"""Radius of the pin over that of the bore, as shown."""
+PIN: Final = 0.72  #: Radius of the pin over that of the bore, as shown.
+#: Distance of a name from the middle of its rod, to the side and upwards [mm].
 BESIDE: Final = np.array([18.0, 11.0])
-"""Distance of a name from the middle of its rod, to the side and upwards [mm]."""
 PAPER: Final = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
 STEEL: Final = "#b7c4d1"
-WINDOW: Final = (-70.0, 195.0, -68.0, 68.0)
-"""Part of the plane of the mechanism that is shown [mm]."""
+WINDOW: Final = (-70.0, 195.0, -68.0, 68.0)  #: Part of the plane of the mechanism that is shown [mm].
 
 
 def draw_mechanism(axes: Axes, drawn: Skeleton, position: NDArray[Any], orientation: NDArray[Any]) -> None:

@@ -10,6 +10,7 @@ from tables.markdown import STATIC, Found, Lines, head, row, seconds, stored
 SOURCE: Final = STATIC / "benchmarks.json"
 KERNEL_GRID: Final = "256 × 32"
 
+#: Name of a peer, what is aimed at, and the least ratio of times.
 AIMS: Final = (
     ("bdf", "10 times as fast as SciPy's BDF with the same compiled functions", 10.0),
     ("BDF, NumPy", "25 times as fast as SciPy's BDF with NumPy", 25.0),
@@ -17,7 +18,6 @@ AIMS: Final = (
     ("Exudyn, point contact", "10 times as fast as Exudyn with its point contact", 10.0),
     ("Exudyn, surface contact", "100 times as fast as Exudyn with our surface contact", 100.0),
 )
-"""Name of a peer, what is aimed at, and the least ratio of times."""
 
 
 def verdict(text: str, kept: bool) -> str:
@@ -231,6 +231,7 @@ def options() -> Lines:
     )
 
 
+#: Tables by name.
 TABLES: Final = {"options": options} | {
     table.__name__: stored(SOURCE, table)
     for table in (
@@ -248,4 +249,3 @@ TABLES: Final = {"options": options} | {
         machines,
     )
 }
-"""Tables by name."""

@@ -32,5 +32,5 @@ def costs(found: Found) -> Lines:
         yield row(f"`{name}`", f"{one['cycles']:g}", *counts, *memory, *times)
 
 
+#: Tables by name.
 TABLES: Final[dict[str, Table]] = {"coefficients": coefficients, "costs": stored(SOURCE, costs)}
-"""Tables by name."""

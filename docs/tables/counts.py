@@ -7,6 +7,7 @@ from typing import Final
 from tables.benchmarks import SOURCE
 from tables.markdown import Found, Lines, head, row, stored
 
+#: Variants of the mechanism by their names in the store, as the page calls them.
 VARIANTS: Final = {
     "as it is": "default",
     "no clip": "total pressure may be tensile: no cut-off",
@@ -18,7 +19,6 @@ VARIANTS: Final = {
     "friction as a moment": "friction as a moment",
     "no clip, v_min, no collar, wide switches": "no cut-off, $v_{min}$, no collar, wide switches",
 }
-"""Variants of the mechanism by their names in the store, as the page calls them."""
 
 
 def kinks(found: Found) -> Lines:
@@ -82,9 +82,9 @@ def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
     return ", ".join(f"{scale * values[name]:.1g} {unit}" for name in ("median", "99 %", "largest"))
 
 
+#: Tables by name.
 TABLES: Final = {
     "kinks": stored(SOURCE, kinks),
     "random": stored(SOURCE, machines),
     "statics": stored(SOURCE, statics),
 }
-"""Tables by name."""

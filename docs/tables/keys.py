@@ -61,6 +61,7 @@ def equations() -> Lines:
             yield row(name, *words_of(kind.ROWS))
 
 
+#: Keys of a joint's clearance that are sizes, or its friction.
 SIZES: Final = (
     "radius",
     "radial",
@@ -71,7 +72,6 @@ SIZES: Final = (
     "gap",
     "friction_coefficient",
 )
-"""Keys of a joint's clearance that are sizes, or its friction."""
 
 
 def keys(kind: str) -> Lines:
@@ -102,6 +102,7 @@ def _cells(key: Key) -> Iterator[str]:
     yield f"**{key.source}**" if key.source == "assumed" else key.source
 
 
+#: Tables by name.
 TABLES: Final[dict[str, Table]] = {
     **{f"keys {kind}": partial(keys, kind) for kind in ("mechanism", "vsv", "journal")},
     **{f"assumed {kind}": partial(assumed, kind) for kind in ("vsv", "journal")},
@@ -110,4 +111,3 @@ TABLES: Final[dict[str, Table]] = {
     "joints": joints,
     "equations": equations,
 }
-"""Tables by name."""

@@ -10,8 +10,7 @@ from tables.markdown import Lines, Table, head, row
 from tribodyn.cases.materials import MATERIALS, written
 from tribodyn.contact import DAMPING_FACTORS, LAWS
 
-WANTED: Final = (0.3, 0.5, 0.7, 0.9)
-"""Coefficients of restitution of the table of damping factors."""
+WANTED: Final = (0.3, 0.5, 0.7, 0.9)  #: Coefficients of restitution of the table of damping factors.
 
 
 def laws() -> Lines:
@@ -42,9 +41,9 @@ def materials() -> Lines:
             yield row("", f"not known: {names}", "", "", "")
 
 
+#: Tables by name.
 TABLES: Final[dict[str, Table]] = {
     "contact-laws": laws,
     "damping-factors": damping_factors,
     "materials": materials,
 }
-"""Tables by name."""

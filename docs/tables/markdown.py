@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 STATIC: Final = Path(__file__).parents[1] / "_static"
-BAR: Final = "\\|"
-"""A bar inside a cell."""
+BAR: Final = "\\|"  #: A bar inside a cell.
 
 Found = dict[str, Any]
 Lines = Iterator[str]

@@ -27,9 +27,9 @@ def sentences() -> Lines:
         yield row(verdict, *(str(counted[verdict]) for counted in found.values()))
 
 
+#: Tables by name.
 TABLES: Final[dict[str, Table]] = {
     "verdicts": counts,
     "claims of the paper": claims,
     "sentences of the paper": sentences,
 }
-"""Tables by name."""

@@ -45,9 +45,9 @@ def figures(kind: str) -> Lines:
         yield row(f"`{name}.png`", f"{one.title}. {one.caption}")
 
 
+#: Tables by name.
 TABLES: Final[dict[str, Table]] = {
     f"{table.__name__} {kind}": partial(table, kind)
     for table in (variables, key_results, parts, figures)
     for kind in ("vsv", "mechanism", *(("journal",) if table in (variables, key_results) else ()))
 }
-"""Tables by name."""

@@ -67,10 +67,10 @@ def ida(found: Found) -> Lines:
         yield row(problem, *cells, *(f"{value:.1f}" for value in most))
 
 
+#: Tables by name.
 TABLES: Final = {
     "work": stored(WORK, work),
     "digits": stored(WORK, digits),
     "cash": stored(SOURCE, cash),
     "ida": stored(ALGEBRAIC, ida),
 }
-"""Tables by name."""

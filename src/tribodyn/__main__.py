@@ -7,8 +7,8 @@ from typing import Final
 from tribodyn.cli.interrupt import hear_signals_to_the_end
 from tribodyn.core.working_directory import ignore_settings
 
+#: New objects between two searches for unreachable ones; by Python's 700 they take a tenth of a short run.
 _FEW_SEARCHES: Final = 100_000
-"""New objects between two searches for unreachable ones; by Python's 700 they take a tenth of a short run."""
 
 # Here and not in the function: processes that are not forked import this module, too.
 ignore_settings()

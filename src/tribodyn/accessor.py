@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from tribodyn.figures.figure_family import Family
 
 ORBIT: Final = "orbit"
+#: Names of the figure of a shaft in its clearance circle, by mechanism.
 _ORBITS: Final = ("trajectory", "orbits")
-"""Names of the figure of a shaft in its clearance circle, by mechanism."""
 
 
 @xr.register_dataset_accessor("tribodyn")  # type: ignore[no-untyped-call]

@@ -16,16 +16,16 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 
 FIRST_DIFFERENCE = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+#: Sixth-order differences on seven points, in units of the step and of its square.
 SECOND_DIFFERENCE = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
-"""Sixth-order differences on seven points, in units of the step and of its square."""
 STENCIL = np.arange(-3.0, 4.0)
 
+#: Names in the order of the rows of the motion table.
 COORDINATES = [
     *("theta_a", "theta_b", "theta_v", "o1_x", "o1_z", "o2_x", "o2_y", "o2_z", "n_x", "n_y", "n_z"),
     *("o3_x", "o3_y", "o3_z", "ov_x", "ov_y", "e_x", "e_y", "phi_x", "phi_y"),
     *("s1_x", "s1_z", "s2_x", "s2_y", "s2_z", "s3_x", "s3_y", "s3_z"),
 ]
-"""Names in the order of the rows of the motion table."""
 
 
 @dataclass(frozen=True)

@@ -14,13 +14,13 @@ from tribodyn.kernels.vsv import layout as at
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, AIR_Z, BEND_X, BEND_Y
 from tribodyn.kernels.vsv.quantities import OBSERVED, REACTIONS
 
-AGREE = 1e-9
-"""Required of accelerations, forces and moments, relative to the largest of them."""
+AGREE = 1e-9  #: Required of accelerations, forces and moments, relative to the largest of them.
 F_AX, F_AY, F_AZ, M_AX, M_AZ, M_D = 4, 5, 6, 7, 8, 9
 F_21, F_32, F_43 = 10, 13, 16
 F_BX, F_BZ, M_BX, M_BZ, F_CZ = 19, 20, 21, 22, 23
 UNKNOWNS = 24
 VALUE, BIAS = at.VALUE, at.BIAS
+#: Which row of the motion table gives the inertia and the weight of which equation.
 EQUATIONS = {
     at.O1_X: 0,
     at.O1_Z: 2,
@@ -38,7 +38,6 @@ EQUATIONS = {
     at.PHI_Y: 21,
     at.THETA_V: 22,
 }
-"""Which row of the motion table gives the inertia and the weight of which equation."""
 
 
 def solve(vsv, mechanism, y, scratch):

@@ -15,8 +15,8 @@ LENGTH: Final = 0.5
 RIGIDITY: Final = 200e9 * 20e-3 * 5e-3**3 / 12.0
 ACROSS: Final = 200e9 * 5e-3 * 20e-3**3 / 12.0
 MASS: Final = 7800.0 * 20e-3 * 5e-3
+#: Of a cantilever: β L of the first three modes.
 ROOTS: Final = np.array([1.8751040687, 4.6940911330, 7.8547574382])
-"""Of a cantilever: β L of the first three modes."""
 BEAM: Final = """
 case = "mechanism"
 run.duration = "10 ms"

@@ -21,10 +21,9 @@ from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 
+#: Random mechanisms that end where their asperities do, as long as these stand on rigid bodies.
 STOPPED = (29, 37, 53, 57, 62, 71, 78, 117, 130, 141, 157, 159, 183, 184, 187)
-"""Random mechanisms that end where their asperities do, as long as these stand on rigid bodies."""
-FEW = 3
-"""Of which so many always run."""
+FEW = 3  #: Of which so many always run.
 WRIST = "joints.wrist.clearance"
 
 

@@ -17,10 +17,8 @@ from tribodyn.kernels.joints.surface.memory import new_memory
 
 MakeClearance = Callable[..., Clearance]
 Pressure = Callable[[FloatArray], FloatArray]
-FINE = (512, 32)
-"""Nodes around and across."""
-QUADRATURE = 1e-6
-"""Relative difference that the table (1e-7) and the grid may make."""
+FINE = (512, 32)  #: Nodes around and across.
+QUADRATURE = 1e-6  #: Relative difference that the table (1e-7) and the grid may make.
 MU = 0.1
 
 

@@ -16,10 +16,10 @@ from tribodyn.kernels.joints.surface.joint import report, update_entry_velocity,
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 
 MASS = np.array([0.8, 0.3])
+#: Principal moments of the body with the socket and of the one with the shaft [kg m²].
 INERTIA = np.array([[4e-4, 6e-4, 5e-4], [1e-4, 0.8e-4, 0.5e-4]])
-"""Principal moments of the body with the socket and of the one with the shaft [kg m²]."""
+#: From mass centres to the joint, in axes of the bodies [m].
 ARM = np.array([[0.02, -0.01, 0.015], [-0.01, 0.02, -0.02]])
-"""From mass centres to the joint, in axes of the bodies [m]."""
 
 
 def turned(state: FloatArray) -> tuple[FloatArray, FloatArray]:

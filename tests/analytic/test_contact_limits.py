@@ -47,8 +47,8 @@ def test_hard_surfaces_are_elastic(elastic: SurfacePair) -> None:
     )
 
 
+#: Laws of Hertzian asperities against a plane; the others count pairs of asperities, or none.
 ONE_ROUGH_SURFACE = [name for name in LAWS if issubclass(LAWS[name], AsperityLaw)]
-"""Laws of Hertzian asperities against a plane; the others count pairs of asperities, or none."""
 
 
 @pytest.mark.parametrize("name", ONE_ROUGH_SURFACE)

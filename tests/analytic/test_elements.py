@@ -214,8 +214,7 @@ def test_a_screw_jack_without_friction_holds_and_lifts_as_its_lead_says(
     assert of_joint(moving, "reaction_force_global", "bearing")[:, 2] == pytest.approx(lifted + G, rel=EXACT)
 
 
-MEAN = 8e-3
-"""Mean radius of a thread with friction [m]."""
+MEAN = 8e-3  #: Mean radius of a thread with friction [m].
 
 
 def rubbing_jack(

@@ -16,10 +16,8 @@ from tribodyn.kernels.ledger import NOW, POSITION, RATE, SPEED, SWING, add_part,
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
-ALLOWED = 0.01
-"""A user is warned above this."""
-HALF_CYCLE = 3.6
-"""Reversal and impacts at π included [s]."""
+ALLOWED = 0.01  #: A user is warned above this.
+HALF_CYCLE = 3.6  #: Reversal and impacts at π included [s].
 
 
 def since_start(values):

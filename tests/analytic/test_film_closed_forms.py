@@ -10,8 +10,7 @@ from tribodyn.lubrication import Film, FilmGrid, film_equilibrium, film_state
 
 VISCOSITY, CLEARANCE, RADIUS, OMEGA = 0.01, 10e-6, 5e-3, 100.0
 ECCENTRICITIES = (0.1, 0.5, 0.8)
-RIGHT = 0.005
-"""Half a per cent on 128 × 32; the errors found are a tenth of it or less but at ε = 0.8."""
+RIGHT = 0.005  #: Half a per cent on 128 × 32; the errors found are a tenth of it or less but at ε = 0.8.
 
 
 def film(slenderness: float, cavitation: str, theta: int = 128, z: int = 32) -> Film:
@@ -68,8 +67,8 @@ def test_long_squeeze_film(eps: float) -> None:
     assert sommerfeld_number(-force[0], 1.0, 1.0) == pytest.approx(expected, rel=RIGHT)
 
 
+#: L/D of a short bearing; the circumferential flow it neglects is of the order of (L/D)² = 2.4e-4.
 SHORT = 1.0 / 64.0
-"""L/D of a short bearing; the circumferential flow it neglects is of the order of (L/D)² = 2.4e-4."""
 
 
 @pytest.mark.parametrize("eps", ECCENTRICITIES)

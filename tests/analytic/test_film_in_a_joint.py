@@ -31,8 +31,8 @@ FILMS = {
     "half-sommerfeld": Film(*SIZE, cavitation="half-sommerfeld", grid=FilmGrid(48, 8)),
     "groove": Film(*SIZE, boundary="groove", grid=FilmGrid(48, 8)),
 }
+#: d [m], a rotation [rad], v [m/s] and ω [rad/s] of a shaft that leans, spins and slides.
 LEANING = np.array([5e-6, 3e-6, 1e-3, 2e-4, -1e-4, 0.3, 1e-3, 2e-3, 0.01, 0.3, -0.2, 100.0])
-"""d [m], a rotation [rad], v [m/s] and ω [rad/s] of a shaft that leans, spins and slides."""
 
 
 class JointFilm:
@@ -168,8 +168,8 @@ def _film_at(film: Any, memory: Any, state: FloatArray, speed: float) -> FloatAr
 
 
 RADIUS, CLEARANCE, LENGTH, VISCOSITY, MASS, OMEGA = 25e-3, 25e-6, 6.25e-3, 0.01, 0.05, 300.0
+#: Constant and rotating part of the load on a short bearing [N]; that rotates with the journal.
 LOAD, TURNING = 14.0, 10.0
-"""Constant and rotating part of the load on a short bearing [N]; that rotates with the journal."""
 
 
 def short_bearing(x: FloatArray, v: FloatArray, angles: FloatArray) -> tuple[FloatArray, float]:

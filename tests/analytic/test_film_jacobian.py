@@ -11,8 +11,8 @@ from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.lubrication import Film, FilmGrid, Roughness
 
 OMEGA = 100.0
+#: What each argument is measured by: c, c/(l_z/2), and speeds that make a film of the same strength.
 SCALE = np.array([20e-6, 20e-6, 2e-3, 2e-3, 2e-4, 2e-4, 2e-2, 2e-2, 100.0])
-"""What each argument is measured by: c, c/(l_z/2), and speeds that make a film of the same strength."""
 STATES = {
     "level": [6e-6, 8e-6, 0.0, 0.0, 1e-4, -2e-4, 0.0, 0.0],
     "tilted": [6e-6, 8e-6, 3e-4, -2e-4, 1e-4, -2e-4, 0.01, -0.02],

@@ -17,8 +17,8 @@ from tribodyn.mechanisms.bushing import bushing_of
 from tribodyn.mechanisms.catalogue import parse_case
 
 LENGTH = 20e-3
+#: Offset and tilt that press one end: the edge would be 1.2 σ deep in the other surface.
 TILTED = np.array([16e-6, 0.0, 0.0, -6e-4, 0.0, 0.0, 0.0, 0.0])
-"""Offset and tilt that press one end: the edge would be 1.2 σ deep in the other surface."""
 FORMS = [Form(crown=4e-6), Form(0.0, 1e-3, 10e-6), Form(2e-6, 2e-3, 5e-6)]
 
 

@@ -16,8 +16,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanism.results.guides import SITUATIONS
 from tribodyn.mechanisms.results import summarise
 
+#: Lengths of the slider-crank, way from its wrist to the middle of its block, length and play of that [m].
 CRANK, ROD, WRIST, LENGTH, PLAY = 0.05, 0.12, 0.02, 0.06, 100e-6
-"""Lengths of the slider-crank, way from its wrist to the middle of its block, length and play of that [m]."""
 SMALL = "1e-5, 1e-4, 1e-4 kg m^2"
 BLOCK = {"width": "30 mm", "height": "20 mm", "length": "60 mm", "radial": "100 um"}
 SLIPPERY = {"friction_coefficient": 0.0}

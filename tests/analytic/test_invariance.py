@@ -13,8 +13,8 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import write_run
 from tribodyn.simulation import simulate
 
+#: The start and what follows it: contact, friction and memory are at work.
 BRIEF = {"run.duration": "0.2 s", "run.output_interval": "5 ms"}
-"""The start and what follows it: contact, friction and memory are at work."""
 ATTITUDE = ("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot")
 
 
@@ -68,11 +68,10 @@ def test_the_path_integrals_do_not_depend_on_the_rows(base):
         assert often[name].values[-1] == pytest.approx(base[name].values[-1], rel=1e-5)
 
 
-WHOLE_NODES = 2.0 * math.pi * 7 / 96
-"""Seven nodes of the contact's grid."""
+WHOLE_NODES = 2.0 * math.pi * 7 / 96  #: Seven nodes of the contact's grid.
 TURNING = {"journal.tilt": True, "journal.speed": "30 rad/s", "joint.friction_coefficient": 0.1}
+#: Vectors in the plane of the bushing; an axis leans along (φ_y, φ_x), moments act along (M_y, M_x).
 PAIRS = (("e_x", "e_y"), ("e_x_dot", "e_y_dot"), ("phi_y", "phi_x"), ("F_cx", "F_cy"), ("F_fx", "F_fy"))
-"""Vectors in the plane of the bushing; an axis leans along (φ_y, φ_x), moments act along (M_y, M_x)."""
 
 
 def journal(kind: str, angle: float, **changes: str) -> xr.Dataset:

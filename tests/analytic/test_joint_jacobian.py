@@ -16,15 +16,14 @@ from tribodyn.kernels.joints.surface.data import COS, SIN, table_of
 
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+#: What makes about the same difference in each argument: σ, σ over half the length, v_min, and the like.
 SCALE = np.array([1.6e-6, 1.6e-6, 1.6e-4, 1.6e-4, 1e-3, 1e-3, 0.1, 0.1, 0.17])
-"""What makes about the same difference in each argument: σ, σ over half the length, v_min, and the like."""
+#: Small against the 1/128 σ between nodes of the contact table, where its second derivative jumps, and
+#: against the slip velocity of 1e-2 of v_min; large against rounding, 1e-15 σ of a gap.
 STEP = SCALE * np.array([1e-5] * 4 + [1e-4] * 5)
-"""Small against the 1/128 σ between nodes of the contact table, where its second derivative jumps, and
-against the slip velocity of 1e-2 of v_min; large against rounding, 1e-15 σ of a gap."""
+#: Of the largest entry of the row, in the units of :data:`SCALE`; 5e-10 is what these states reach.
 AGREE = 1e-8
-"""Of the largest entry of the row, in the units of :data:`SCALE`; 5e-10 is what these states reach."""
-NEGLIGIBLE = 1e-6
-"""Row [N or N m] below which only the end of the contact table, 8 σ apart, is felt."""
+NEGLIGIBLE = 1e-6  #: Row [N or N m] below which only the end of the contact table, 8 σ apart, is felt.
 STATES = 80
 
 

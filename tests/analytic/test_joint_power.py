@@ -7,10 +7,10 @@ from tribodyn.joints.bushing import joint_report, joint_wrench
 
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+#: A hundred-thousandth of what changes the pressure by about e.
 STEP = 1e-5 * np.array([1.6e-6, 1.6e-6, 1.6e-4, 1.6e-4])
-"""A hundred-thousandth of what changes the pressure by about e."""
+#: The stored energy is the exact integral of the tabulated pressure; the rest is rounding of differences.
 AGREE = 1e-8
-"""The stored energy is the exact integral of the tabulated pressure; the rest is rounding of differences."""
 
 
 def out_of(data, y, omega, sign, entry):

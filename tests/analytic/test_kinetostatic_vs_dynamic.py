@@ -14,20 +14,19 @@ from scipy.optimize import root
 
 from tribodyn.joints.bushing import joint_wrench
 
-SCALE = np.array([1.6e-6, 1.6e-6, 1.6e-4, 1.6e-4])
-"""Unknowns of order one: σ, and σ over half the length."""
+SCALE = np.array([1.6e-6, 1.6e-6, 1.6e-4, 1.6e-4])  #: Unknowns of order one: σ, and σ over half the length.
 TIME_STEP = 0.02
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+#: Where the ringing is over [s] that follows the reversals at 0, π, 2π s and F_airx at 1.38 and 4.90 s: soon
+#: with traction at 20 µm, after a second and more at 40 µm and with the friction moment.
 QUIET = {
     ("exact", 20e-6): (0.6, 1.0, 1.25, 1.9, 2.5, 2.9, 3.6, 4.2, 4.6, 5.4, 5.9),
     ("exact", 40e-6): (0.6, 1.0, 1.25, 4.2, 4.4, 4.6),
     ("paper", 20e-6): (2.2, 2.6, 2.9, 5.9, 6.1),
     ("paper", 40e-6): (2.6, 2.9, 5.9, 6.1),
 }
-"""Where the ringing is over [s] that follows the reversals at 0, π, 2π s and F_airx at 1.38 and 4.90 s: soon
-with traction at 20 µm, after a second and more at 40 µm and with the friction moment."""
+#: Middles of windows over which the ringing, of 20 Hz and more, is averaged out [s].
 RINGING = (0.7, 1.0, 1.7, 2.0, 2.5, 2.9, 3.8, 4.2, 4.6, 5.2, 5.6, 5.9)
-"""Middles of windows over which the ringing, of 20 Hz and more, is averaged out [s]."""
 HALF_WINDOW = 0.1
 
 

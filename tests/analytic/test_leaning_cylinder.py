@@ -23,10 +23,9 @@ from tribodyn.lubrication import Film, FilmGrid
 
 MakeClearance = Callable[..., Clearance]
 GRID = (96, 8)
+#: Radius, length, radial clearance [m].
 SIZES = list(itertools.product((6e-3, 60e-3, 380e-3), (10e-3, 40e-3), (20e-6, 40e-6)))
-"""Radius, length, radial clearance [m]."""
-GUIDE = {"radius": 380e-3, "length": 10e-3}
-"""The guide of the built-in case vsv-joints."""
+GUIDE = {"radius": 380e-3, "length": 10e-3}  #: The guide of the built-in case vsv-joints.
 
 
 def upright(lean: FloatArray) -> FloatArray:

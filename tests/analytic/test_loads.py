@@ -10,10 +10,8 @@ import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 
-CLOSE = 1e-8
-"""Motions at a relative tolerance of 1e-10 against closed forms."""
-SAME = 1e-9
-"""Power of a load by hand against the rate of the kinetic energy, at output times."""
+CLOSE = 1e-8  #: Motions at a relative tolerance of 1e-10 against closed forms.
+SAME = 1e-9  #: Power of a load by hand against the rate of the kinetic energy, at output times.
 INERTIA, MASS, RADIUS = 0.02, 2.0, 0.25
 
 

@@ -16,13 +16,11 @@ from tribodyn.integrate import MEBDF
 
 GRAVITY = 9.81
 N_DROPS = 40
+#: Error in units of rtol for each kink stepped over: the error test lets it leave up to 1 in the speed, and a
+#: relative error of speed becomes twice as large an error of the time of the next landing.
 PER_KINK = 2.0
-"""Error in units of rtol for each kink stepped over: the error test lets it leave up to 1 in the speed, and a
-relative error of speed becomes twice as large an error of the time of the next landing."""
-HELD = 1.0
-"""Error in units of rtol where the branch is held: each piece is smooth, and few steps long."""
-LENGTH, SPEED = 1e-3, 1e-2
-"""What the tolerances are relative to, beside the values themselves [m, m/s]."""
+HELD = 1.0  #: Error in units of rtol where the branch is held: each piece is smooth, and few steps long.
+LENGTH, SPEED = 1e-3, 1e-2  #: What the tolerances are relative to, beside the values themselves [m, m/s].
 
 
 def drops():

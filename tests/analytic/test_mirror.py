@@ -22,6 +22,7 @@ from tribodyn.simulation import simulate
 
 LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))
 
+#: Forward, a reversal at π, and backward; a switch that is not its own image; ringing followed closely.
 CASE = {
     "run.duration": "3.6 s",
     "loads.switch_angle": "85 deg",
@@ -29,7 +30,6 @@ CASE = {
     **{"solver.atol.position": "1e-11 m", "solver.atol.tilt": "1e-9 rad"},
     **{"solver.atol.velocity": "1e-7 m/s", "solver.atol.tilt_rate": "1e-5 rad/s"},
 }
-"""Forward, a reversal at π, and backward; a switch that is not its own image; ringing followed closely."""
 IMAGE = {
     "mechanism.pivot_angle": "160 deg",
     "mechanism.ring_angle": "-55 deg",
@@ -38,15 +38,14 @@ IMAGE = {
     "loads.switch_angle": "95 deg",
 }
 
+#: Change their sign; vane angles become their supplements; all others stay.
 TURNED = {
     *("e_x", "phi_y", "e_x_dot", "phi_y_dot"),
     *("theta_a", "theta_b", "omega_a", "omega_v", "omega_v_ideal"),
     *("F_cx", "F_kx", "F_dx", "F_fx", "M_jcy", "M_ky", "M_fy", "M_jf", "M_tcy", "M_tf"),
     *("F_ax", "M_az", "M_d", "F_21x", "F_32x", "F_43x", "F_bx", "M_bz", "F_airx", "M_air"),
 }
-"""Change their sign; vane angles become their supplements; all others stay."""
-ERRORS = {"energy_residual", "energy_clearance_residual"}
-"""What the integration misses: its own, and small."""
+ERRORS = {"energy_residual", "energy_clearance_residual"}  #: What the integration misses: its own, and small.
 
 
 def image(lengths: Lengths) -> Lengths:

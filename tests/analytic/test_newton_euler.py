@@ -20,12 +20,11 @@ from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 FORMULATIONS = ("exact", "paper")
+#: How far the difference points lie from the instant [rad, and of the lever's 50 mm twenty times less].
 EXCURSION = 1e-3
-"""How far the difference points lie from the instant [rad, and of the lever's 50 mm twenty times less]."""
-LONGEST_STEP = 0.02
-"""Of time, where accelerations are small [s]."""
+LONGEST_STEP = 0.02  #: Of time, where accelerations are small [s].
+#: Second differences of positions known to 1e-16 m over that excursion reach 1e-10 of the acceleration.
 BALANCED = 1e-8
-"""Second differences of positions known to 1e-16 m over that excursion reach 1e-10 of the acceleration."""
 FIRST = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 
 

@@ -25,8 +25,8 @@ from tribodyn.joints.point_contact import POINT_CONTACTS, johnson, lankarani_nik
 from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 
 MakeJoint = Callable[..., BushingJoint]
+#: What makes about the same difference in each argument.
 SCALE = np.array([1e-6, 1e-6, 1e-4, 1e-4, 1e-3, 1e-3, 0.1, 0.1, 0.17])
-"""What makes about the same difference in each argument."""
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 

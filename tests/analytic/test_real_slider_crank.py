@@ -12,11 +12,9 @@ from tribodyn.joints.clearances import Clearance, contact_table
 from tribodyn.mechanism.assembly.assembly import assemble
 from tribodyn.mechanism.assembly.parts_by_number import Model
 
-TURN = 0.012
-"""One turn of the crank at 5000 rpm [s]."""
+TURN = 0.012  #: One turn of the crank at 5000 rpm [s].
 TIMES = TURN * np.linspace(0.0, 2.0, 401)
-LAST = TIMES >= TURN
-"""The second turn: the shaft starts in the middle and lands in the first."""
+LAST = TIMES >= TURN  #: The second turn: the shaft starts in the middle and lands in the first.
 WRIST = 2
 POINT = "point-lankarani-nikravesh"
 

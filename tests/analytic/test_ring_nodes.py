@@ -25,11 +25,10 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 
 MakeClearance = Callable[..., Clearance]
 SHAPES = ("cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball")
+#: Whole groups of four nodes, and not; rings fill blocks of four, and do not.
 GRIDS = ((24, 5), (26, 6), (5, 2))
-"""Whole groups of four nodes, and not; rings fill blocks of four, and do not."""
 POSES = 50
-CLOSE = 1e-12
-"""Of the largest entry."""
+CLOSE = 1e-12  #: Of the largest entry.
 
 
 def one_by_one(rings: SurfaceData) -> SurfaceData:

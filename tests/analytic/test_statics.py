@@ -18,8 +18,7 @@ from tribodyn.results.reading import column
 
 PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
 FRICTION = 0.2
-SIDE = 0.2e-3
-"""Difference of two clearances [m]: roughness, which holds pins apart, is some micrometres."""
+SIDE = 0.2e-3  #: Difference of two clearances [m]: roughness, which holds pins apart, is some micrometres.
 
 
 def static(mechanism: td.Mechanism, **run: object) -> xr.Dataset:

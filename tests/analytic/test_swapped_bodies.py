@@ -13,6 +13,8 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
+#: Not all: the ball of a pin-slot belongs to the second body, and a spring-damper acts along axes of the
+#: first one, so that swapped bodies are another mechanism.
 TYPES: dict[str, dict[str, Any]] = {
     "fixed": {},
     "revolute": {"axis": [0.0, 0.6, 0.8]},
@@ -22,8 +24,6 @@ TYPES: dict[str, dict[str, Any]] = {
     "spherical": {},
     "universal": {"axis": [0.0, 0.6, 0.8], "second_axis": [1.0, 0.0, 0.0]},
 }
-"""Not all: the ball of a pin-slot belongs to the second body, and a spring-damper acts along axes of the
-first one, so that swapped bodies are another mechanism."""
 SIZES = {"radius": "6 mm", "radial": "20 um", "nodes_around": 24, "nodes_along": 8, "socket": "arm"}
 REAL = {
     "revolute": {"length": "12 mm", "axial": "50 um"},

@@ -20,13 +20,11 @@ from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_segments
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
-SAME = 1e-12
-"""A constant, and a spline through equal values: rounding."""
-NEIGHBOUR = 1e-9
-"""Runs whose loads differ by rounding: 1e-11 after 50 ms."""
+SAME = 1e-12  #: A constant, and a spline through equal values: rounding.
+NEIGHBOUR = 1e-9  #: Runs whose loads differ by rounding: 1e-11 after 50 ms.
+#: Of the largest term: the balance of the clearance motion misses 2.2e-3, 1.1e-3 and 6e-4 of it at relative
+#: tolerances of 1e-3, 1e-4 and 1e-5.
 CLOSED = 5e-3
-"""Of the largest term: the balance of the clearance motion misses 2.2e-3, 1.1e-3 and 6e-4 of it at relative
-tolerances of 1e-3, 1e-4 and 1e-5."""
 OFF = """
 case = "vsv"
 [loads]

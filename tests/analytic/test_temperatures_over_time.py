@@ -40,8 +40,7 @@ def hanging(kind: str, *, duration: str = "0.3 s", arm: float = 10.0, **clearanc
 
 COOLING = over_time("bushing", "0, 0.2, 0.3 s", "60, 40, 40 degC")
 COOLING |= {f"{WARM}over_time.bushing.interpolation": "linear"}
-GAIN = 50e-6 * 6.02e-3
-"""What the bore gains for each kelvin [m/K]."""
+GAIN = 50e-6 * 6.02e-3  #: What the bore gains for each kelvin [m/K].
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -6,10 +6,9 @@ import pytest
 import tribodyn as td
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
-WEIGHT = 9.81 * 2.0
-"""Of the shaft [N]."""
+WEIGHT = 9.81 * 2.0  #: Of the shaft [N].
+#: What a start may leave: loads are balanced to a millionth of the largest one met on the way to the wall.
 SETTLED = 1e-4
-"""What a start may leave: loads are balanced to a millionth of the largest one met on the way to the wall."""
 PIN = {"radius": "6 mm", "radial": "20 um", "friction_coefficient": 0.0, "nodes_around": 96}
 
 

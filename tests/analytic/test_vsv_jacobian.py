@@ -13,12 +13,12 @@ from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.equations import accelerations
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
+#: What makes about the same difference in each state, see the test of the joint's Jacobian.
 SCALE = np.array([1.6e-6, 1.6e-6, 1.6e-4, 1.6e-4, 1e-3, 1e-3, 0.1, 0.1])
-"""What makes about the same difference in each state, see the test of the joint's Jacobian."""
 STEP = SCALE * np.array([1e-4] * 4 + [1e-3] * 4)
+#: Of the largest entry of a row in those units, and of the acceleration itself: tilted by 1.6e-4 rad, forces
+#: turn by as much, and that is what is missing.
 LEFT_OUT = 5e-4
-"""Of the largest entry of a row in those units, and of the acceleration itself: tilted by 1.6e-4 rad, forces
-turn by as much, and that is what is missing."""
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 
 

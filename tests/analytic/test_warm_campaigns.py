@@ -14,10 +14,8 @@ EXPANSIONS = {
     "surfaces.trunnion.thermal_expansion": "12e-6 1/K",
     "surfaces.bushing.thermal_expansion": "50e-6 1/K",
 }
-GAIN = 50e-6 * 6.02e-3
-"""What a free bore of 6.02 mm gains for each kelvin [m/K]."""
-TURN = 0.02
-"""Time of a turn of the journal [s]."""
+GAIN = 50e-6 * 6.02e-3  #: What a free bore of 6.02 mm gains for each kelvin [m/K].
+TURN = 0.02  #: Time of a turn of the journal [s].
 
 
 def journal(**changes: Any) -> td.Case:

@@ -13,8 +13,7 @@ import tribodyn as td
 from tribodyn.core.errors import InputError
 
 RATE, PARTNER, FRICTION = 1e-13, 5e-14, 0.1
-TURN = 20e-3
-"""Time of a turn of the journal [s]."""
+TURN = 20e-3  #: Time of a turn of the journal [s].
 
 
 def journal(load: float, viscosity: float | None, **changes: Any) -> td.Case:

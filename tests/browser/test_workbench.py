@@ -23,13 +23,12 @@ from tribodyn.mechanisms.results import summarise
 
 from .conftest import NO_WEBGL, Reader, Watched, by_bidi
 
+#: Time within which everything must have happened, on a machine that does other things too [ms].
 SOON = 300_000.0
-"""Time within which everything must have happened, on a machine that does other things too [ms]."""
 CASE = ["vsv", "--set", "run.duration=6.5 s"]
 CLEARANCE = "joint.clearance"
 TIMES = ("wall_time_s", "real_time_factor")
-PAGE_BYTES = 300_000
-"""Promised: what a browser loads before the first run, without pictures."""
+PAGE_BYTES = 300_000  #: Promised: what a browser loads before the first run, without pictures.
 
 
 class Workbench:
@@ -116,8 +115,7 @@ class Person(Reader):
 
 
 Opened = Callable[..., Person]
-Delayed = list[tuple[WebSocketRoute, str | bytes]]
-"""Messages to pages, in their order."""
+Delayed = list[tuple[WebSocketRoute, str | bytes]]  #: Messages to pages, in their order.
 
 
 @pytest.fixture
@@ -369,8 +367,8 @@ mass = "weight"
 centre = ["length / 2", "0 mm", "0 mm"]
 inertia = "1e-4, 1e-3, 1e-3 kg m^2"
 """
+#: A crank whose mass follows a parameter.
 DEPENDENT = CRANK.replace("[bodies", 'parameters.weight = "1 kg"\n[bodies', 1).replace(SOLID, MASSIVE)
-"""A crank whose mass follows a parameter."""
 WEIGHT, MASS, LENGTH = "parameters.weight.value", "bodies.crank.mass", "parameters.length.value"
 BOXES = """() => Object.fromEntries([...document.querySelectorAll(".control")].map((box) => [
   box.dataset.key,
@@ -380,6 +378,7 @@ BOXES = """() => Object.fromEntries([...document.querySelectorAll(".control")].m
     pageState.controls.get(box.dataset.key).unit,
   ],
 ]))"""
+#: Values that are typed; some of them are refused.
 EDITS = (
     (WEIGHT, "2 kg"),
     (WEIGHT, "-1 kg"),
@@ -390,7 +389,6 @@ EDITS = (
     (WEIGHT, "0 kg"),
     (LENGTH, "45 mm"),
 )
-"""Values that are typed; some of them are refused."""
 
 
 def _boxes_are_what_was_run(person: Person, file: Path) -> None:

@@ -14,8 +14,8 @@ import numpy as np
 from tests.faults import random_mechanisms as drawings
 from tests.faults.random_mechanisms import SHAPES, Chance, Drawing, around, direction
 
+#: What a refusal says, one of them.
 WORDS: Final = ("does not close", "has nothing to drive", "drive one freedom", "nothing holds body")
-"""What a refusal says, one of them."""
 
 
 def space(chance: Chance) -> Any:

@@ -27,8 +27,8 @@ IN_SERIES: Final = (
     "pin-slot",
     "spring-damper",
 )
+#: Joints that leave no way; a chain of them cannot fall apart.
 HELD_ALONG: Final = ("revolute", "spherical", "universal")
-"""Joints that leave no way; a chain of them cannot fall apart."""
 SHAPES: Final = {"revolute": "cylinder", "cylindrical": "cylinder", "spherical": "sphere", "pin-slot": "ball"}
 
 
@@ -50,17 +50,10 @@ def millimetres(point: Any) -> list[str]:
 
 @dataclass
 class Drawing:
-    """A mechanism while it is drawn.
+    """A mechanism while it is drawn."""
 
-    Attributes
-    ----------
-    chance
-        What draws it.
-    bodies, joints, more
-        Tables of its case by name; the last one holds the others.
-    """
-
-    chance: Chance
+    chance: Chance  #: What draws it.
+    #: Tables of its case by name; the last one holds the others.
     bodies: dict[str, Keys] = field(default_factory=dict)
     joints: dict[str, Keys] = field(default_factory=dict)
     more: dict[str, Any] = field(default_factory=dict)

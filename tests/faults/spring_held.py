@@ -16,22 +16,13 @@ from tribodyn.core.arrays import FloatArray
 
 GRAVITY: Final = 9.81
 PIN: Final = {"radius": "6 mm", "length": "20 mm", "axial": "50 um", "friction_coefficient": "0"}
-CLEARANCE: Final = 2e-5
-"""Of each pivot that has one [m]."""
+CLEARANCE: Final = 2e-5  #: Of each pivot that has one [m].
 POSITIONS: Final = 12
 
 
 @dataclass
 class Lever:
-    """A lever of a chain: its length, mass and mass centre, and what acts on it, in SI units.
-
-    Attributes
-    ----------
-    cubic
-        Torque of the spring over the cube of its angle; it has no other stiffness then.
-    spring
-        Stiffness, free length and place on the ground of a spring at its end; none for a stiffness of zero.
-    """
+    """A lever of a chain: its length, mass and mass centre, and what acts on it, in SI units."""
 
     length: float
     mass: float
@@ -39,30 +30,23 @@ class Lever:
     drawn: float
     stiffness: float
     preload: float
-    cubic: bool
+    cubic: bool  #: Torque of the spring over the cube of its angle; it has no other stiffness then.
     load: FloatArray
+    #: Stiffness, free length and place on the ground of a spring at its end; none for a stiffness of zero.
     spring: tuple[float, float, FloatArray]
     real: bool
 
 
 @dataclass
 class Held:
-    """A random mechanism.
-
-    Attributes
-    ----------
-    turns, speed
-        Whether the base turns, and its speed.
-    levers
-        Of the chain.
-    arm
-        Foot and length of the arm of a five-bar; None without one.
-    """
+    """A random mechanism."""
 
     chance: np.random.Generator
+    #: Whether the base turns, and its speed.
     turns: bool = False
     speed: float = 0.0
-    levers: list[Lever] = field(default_factory=list)
+    levers: list[Lever] = field(default_factory=list)  #: Of the chain.
+    #: Foot and length of the arm of a five-bar; None without one.
     arm: tuple[FloatArray, float] | None = None
 
     def __post_init__(self) -> None:

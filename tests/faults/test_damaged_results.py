@@ -15,11 +15,10 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 
-FEW, MANY = 200, 5000
-"""Damaged files in ``make test`` and in ``make test-long``."""
-TIME_LIMIT = 5.0
-"""No file may keep the reader longer than this [s]."""
+FEW, MANY = 200, 5000  #: Damaged files in ``make test`` and in ``make test-long``.
+TIME_LIMIT = 5.0  #: No file may keep the reader longer than this [s].
 
+#: Reads one file for each line that it is given, and says what came of it.
 READER = f"""
 import json, sys, time
 from tribodyn.core.errors import InputError
@@ -38,7 +37,6 @@ for line in sys.stdin:
         said += ", too slowly"
     print(json.dumps(said), flush=True)
 """
-"""Reads one file for each line that it is given, and says what came of it."""
 
 
 def cut(content: bytearray, draw: random.Random) -> None:

@@ -24,10 +24,10 @@ from tribodyn.core import platforms
 
 HOOK = Path(__file__).parent / "elsewhere"
 SOURCES = Path(platforms.__file__).parents[1]
-LONG = 300.0
-"""Longest that a command may take on a busy machine [s]."""
+LONG = 300.0  #: Longest that a command may take on a busy machine [s].
 SHORT = ("slider-crank", "--set", "run.duration=20 ms")
 RADIAL = "joints.wrist.clearance.radial"
+#: In their order: what one writes, a later one reads.
 COMMANDS = {
     "run": ("run", *SHORT, "--no-figures", "--no-report", "-o", "run"),
     "sweep": (
@@ -46,7 +46,6 @@ COMMANDS = {
     "compare": ("compare", "run", "run", "--json"),
     "report": ("report", "run"),
 }
-"""In their order: what one writes, a later one reads."""
 MEASURED = "time [s],drive_moment.main [N m]\n" + "".join(
     f"{1e-3 * k:g},{138.0 + 0.1 * k:g}\n" for k in range(1, 19)
 )

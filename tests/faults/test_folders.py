@@ -11,6 +11,7 @@ from tribodyn.cli.main import main
 from tribodyn.papers.cheng_2022.figures import FIGURES
 from tribodyn.surfaces import SelfAffine, generate, write_text
 
+#: All that write into a folder of their own; ``report`` writes where there are results.
 COMMANDS = [
     ("run", "vsv"),
     ("run", "vsv", "--set", "wear.cycles=400"),
@@ -18,7 +19,6 @@ COMMANDS = [
     ("reproduce", "fig10"),
     ("surface", "scan.csv", "--short-cutoff", "6 um"),
 ]
-"""All that write into a folder of their own; ``report`` writes where there are results."""
 
 
 @pytest.fixture(autouse=True)

@@ -20,12 +20,11 @@ from tribodyn.core.errors import InputError, Stopped
 from tribodyn.mechanisms.catalogue import built_in, kinds, load_case
 from tribodyn.simulation import simulate
 
+#: Examples of each test in ``make test`` and, five tests of them, in ``make test-long``.
 FEW, MANY = 40, 4000
-"""Examples of each test in ``make test`` and, five tests of them, in ``make test-long``."""
-TIME_LIMIT = 5.0
-"""No file may keep the reader longer than this [s]."""
+TIME_LIMIT = 5.0  #: No file may keep the reader longer than this [s].
+#: Simulated time of a valid case, when it is told to stop, and when it counts as one that hangs [s].
 MOMENT, PATIENCE, HANGS = 2e-3, 0.5, 30.0
-"""Simulated time of a valid case, when it is told to stop, and when it counts as one that hangs [s]."""
 
 KEYS = sorted({path for kind in kinds().values() for path in keys_of(kind)})
 UNITS = [

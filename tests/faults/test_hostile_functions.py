@@ -85,6 +85,7 @@ def outcome(fun, y0, options):
     return message
 
 
+#: What a sentence that is ours holds.
 OURS = (
     *(
         "`fun` is",
@@ -97,7 +98,6 @@ OURS = (
     ),
     *("the step became shorter", "is singular", "fails again and again", "the user's own"),
 )
-"""What a sentence that is ours holds."""
 
 
 @pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])

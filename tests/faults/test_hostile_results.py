@@ -17,8 +17,7 @@ from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
 MARKUP = '</script></style></title><script>alert(1)</script><img src="x" onerror="alert(1)">{{ 7*7 }}\u2028'
-NEEDED = {"kind"}
-"""Texts that choose what a page is made of; another one would only choose another page."""
+NEEDED = {"kind"}  #: Texts that choose what a page is made of; another one would only choose another page.
 
 
 class Page(HTMLParser):

@@ -56,8 +56,8 @@ KEYS = (
 ODD = (None, True, -1, 2**32, 2**70, 1.5, 1e308, [], {}, [[]], "x", "0", {"a": {"b": []}})
 NO_OBJECTS = ("[" * 5000, "{" * 5000, "9" * 5000, "null", "NaN", '""', "[]", "\ufeff{}", '{"type":' * 500)
 KINDS = ("run", "drawn", "cancel", "pin", "unpin", "sweep", "slope", "hello", "eval", "", None, 7)
+#: How events are named that touch the machine, as an audit hook is told.
 WATCHED = ("open", "os.", "subprocess.", "shutil.")
-"""How events are named that touch the machine, as an audit hook is told."""
 
 
 class Watch:

@@ -21,22 +21,17 @@ from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.simulation import simulate
 
-PATIENCE = 60.0
-"""Computing time in which there must be an answer [s]."""
-MOST = 1e6
-"""Largest force over the applied ones."""
+PATIENCE = 60.0  #: Computing time in which there must be an answer [s].
+MOST = 1e6  #: Largest force over the applied ones.
+#: Pressure on the projected area, with that of the moment at its end, of a bearing that is too small [Pa]. A
+#: right mechanism may stop in its joint, beyond the range of the contact law, and in no other. The number was
+#: chosen when such stops had been seen: all but one had 14 MPa or more.
 OVERLOAD = 5e6
-"""Pressure on the projected area, with that of the moment at its end, of a bearing that is too small [Pa]. A
-right mechanism may stop in its joint, beyond the range of the contact law, and in no other. The number was
-chosen when such stops had been seen: all but one had 14 MPa or more."""
-RANGE = 4.0
-"""Depth below which the contact law ends, over the roughness."""
-BALANCE = 0.05
-"""What the energy balance may miss until a stop, over the energy."""
-DURATION = 4e-3
-"""Longest run of a mechanism that is right [s]."""
+RANGE = 4.0  #: Depth below which the contact law ends, over the roughness.
+BALANCE = 0.05  #: What the energy balance may miss until a stop, over the energy.
+DURATION = 4e-3  #: Longest run of a mechanism that is right [s].
+#: Each kind at least once, and rows that depend on each other to the last bit once scaled by mass.
 FEW = (*range(2 * max(len(RIGHT), len(IMPOSSIBLE))), 63, 1141, 1713)
-"""Each kind at least once, and rows that depend on each other to the last bit once scaled by mass."""
 
 
 def outcome(drawing: Drawing) -> tuple[xr.Dataset | None, str]:

@@ -20,8 +20,7 @@ from scipy.sparse import eye_array
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.integrate import MEBDF, integrate
 
-MOST = 20_000
-"""Calls after which a run counts as endless."""
+MOST = 20_000  #: Calls after which a run counts as endless.
 
 
 @dataclass(frozen=True)
@@ -257,8 +256,8 @@ FAMILIES = (
     one_jump_up, one_jump_down, steps_up_and_down, smooth_jump, jump_with_relaxation, breakaway, equal_jumps,
     jump_at_a_place, moving_threshold, power_at_rest, tanks, sliding, dry_friction, slope_that_jumps,
 )  # fmt: skip
+#: What may take more calls than a run is given here, for it slides where much else changes.
 LONG = (moving_target, sliding_beside_stiff)
-"""What may take more calls than a run is given here, for it slides where much else changes."""
 
 
 def run(case, method=MEBDF, **options):

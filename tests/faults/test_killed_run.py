@@ -21,8 +21,7 @@ from tribodyn.results.atomic import remove_stale_parts
 
 RUN = [sys.executable, "-m", "tribodyn", "run", "vsv", "--force", "--set", "run.duration=1 s", "-o"]
 WHOLE = ["case.toml", "figures", "report.html", "result.nc", "summary.json"]
-SMALL = 100_000
-"""Bytes that a full disk has left; a result needs ten times as many."""
+SMALL = 100_000  #: Bytes that a full disk has left; a result needs ten times as many.
 
 
 def started(folder: Path) -> subprocess.Popen[str]:

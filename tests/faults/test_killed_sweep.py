@@ -19,8 +19,8 @@ import xarray as xr
 from tribodyn.mechanisms.results import read
 
 POINTS = 7
+#: Kills of a part of the campaign, and when a part, or one sweep in it, counts as one that hangs [s].
 KILLS, LONGEST = 10, 1800.0
-"""Kills of a part of the campaign, and when a part, or one sweep in it, counts as one that hangs [s]."""
 # The seconds of a point are those in which it can be killed.
 SWEEP = [
     *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "-o", "out", "--workers", "2", "--summary-only"),

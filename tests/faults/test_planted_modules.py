@@ -24,13 +24,14 @@ NEEDED = {
     "tribodyn",
     "xarray",
 }
+#: Names of planted modules: all of Python, and what tribodyn is made of and needs.
 NAMES = {*sys.stdlib_module_names, *NEEDED}
-"""Names of planted modules: all of Python, and what tribodyn is made of and needs."""
+#: Commands that may start helper processes: each is run by itself. The others run one after another.
 HELPED = {"run", "sweep", "find", "workbench", "validate"}
-"""Commands that may start helper processes: each is run by itself. The others run one after another."""
 SHORT = ("vsv", "--set", "run.duration=2 ms", "--set", "run.output_interval=1 ms", "--quiet")
 VARIED = (*SHORT, "--vary", "joint.clearance=20:30:10 um", "--workers", "2", "--summary-only")
 FOUND = (*SHORT, "--vary", "joint.clearance=10..60um", "--until", "vane_angle_error_max_deg=0.03")
+#: Commands that come to their end.
 DONE_BY = {
     "run": ("run", *SHORT),
     "cases": ("cases",),
@@ -43,7 +44,7 @@ DONE_BY = {
     "completion": ("completion", "bash"),
     "validate": ("validate", "dry_liners", "-o", "planted-validation"),
 }
-"""Commands that come to their end."""
+#: Commands with arguments that they refuse.
 REFUSED_BY = {
     "sweep": ("sweep", "vsv", "--vary", "nothing=1:2:1", "--workers", "2"),
     "find": ("find", "vsv", *FOUND[-4:], "--workers", "-1"),
@@ -70,16 +71,15 @@ REFUSED_BY = {
     ),
     "fit": ("fit", "vsv", "--data", "missing.csv", "--vary", "joint.clearance=1..2"),
 }
-"""Commands with arguments that they refuse."""
 
-SETTINGS = {".numba_config.yaml": "{"}
-"""Settings files that end the process which reads them."""
+SETTINGS = {".numba_config.yaml": "{"}  #: Settings files that end the process which reads them.
+#: Names under which other packages could look for settings; whoever opens such a pipe waits for ever.
 NEVER_OPENED = (
     *("matplotlibrc", ".matplotlibrc", ".ncrc", ".dodsrc", ".daprc", ".netrc", "dask.yaml", "fonts.conf"),
     *("default_en.txt", "constants_en.txt", "pint.toml", "fontlist.json", "pyproject.toml", ".condarc"),
 )
-"""Names under which other packages could look for settings; whoever opens such a pipe waits for ever."""
 
+#: Runs commands in one process, as the installed script does one.
 ONE_AFTER_ANOTHER = """
 import json, sys
 from tribodyn.__main__ import main
@@ -89,7 +89,6 @@ if __name__ == "__main__":
         if main() != status:
             sys.exit(f"{given} did not end with {status}")
 """
-"""Runs commands in one process, as the installed script does one."""
 
 
 @pytest.fixture(scope="module")

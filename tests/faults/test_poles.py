@@ -7,8 +7,7 @@ from scipy.integrate import solve_ivp
 
 from tribodyn.integrate import MEBDF
 
-BEYOND = (1.02, 1.05, 1.1, 1.2, 2.0, 100.0)
-"""Ends over the time of the pole."""
+BEYOND = (1.02, 1.05, 1.1, 1.2, 2.0, 100.0)  #: Ends over the time of the pole.
 STARTS = (0.1, 1.0, 3.0, 10.0)
 
 

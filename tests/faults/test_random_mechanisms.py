@@ -18,22 +18,20 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.self_checks import ENERGY_LIMIT
 from tribodyn.simulation import simulate
 
-CLOSED = 1e-10
-"""Distance [m] and sine of an angle that no joint may come apart by."""
+CLOSED = 1e-10  #: Distance [m] and sine of an angle that no joint may come apart by.
+#: Force missing in Newton's law over the largest one: 1e-14, more where masses differ by millions.
 BALANCED = 1e-7
-"""Force missing in Newton's law over the largest one: 1e-14, more where masses differ by millions."""
+#: Way that is none [m]: energies are then the rounding of forces that balance, and a run says so.
 REST = 1e-9
-"""Way that is none [m]: energies are then the rounding of forces that balance, and a run says so."""
+#: Computing time of a run that hangs [s]: of 200, seed 138 takes the longest, 1 to 12 s as its path goes. Its
+#: rocker of 4e-8 kg shakes between bodies a million times heavier. One other takes 8 s, the rest 5 s at most.
 PATIENCE = 60.0
-"""Computing time of a run that hangs [s]: of 200, seed 138 takes the longest, 1 to 12 s as its path goes. Its
-rocker of 4e-8 kg shakes between bodies a million times heavier. One other takes 8 s, the rest 5 s at most."""
 TOO_LIGHT = "is too light beside"
+#: What a run says that stops because a load, such as that on the edge of a pin, is too much for a law.
 BEYOND = "closer than the contact law reaches"
-"""What a run says that stops because a load, such as that on the edge of a pin, is too much for a law."""
-FEW = (2, 5, 6, 10, 12, 27)
-"""Seeds of each form and fault that take half a second each."""
+FEW = (2, 5, 6, 10, 12, 27)  #: Seeds of each form and fault that take half a second each.
+#: Joints whose points stay together; those of others do across the axis.
 MEETS = ("revolute", "spherical", "universal", "fixed")
-"""Joints whose points stay together; those of others do across the axis."""
 ALIGNED = ("revolute", "cylindrical", "prismatic")
 Vectors = np.ndarray[Any, np.dtype[np.float64]]
 

@@ -25,17 +25,15 @@ from tribodyn.papers.cheng_2022.reduced.reach import reachable
 from tribodyn.results.variables import PARTS
 from tribodyn.simulation import simulate
 
-ENERGY_LIMIT = 0.01
-"""Largest energy residual of a sound run: above it a run warns."""
+ENERGY_LIMIT = 0.01  #: Largest energy residual of a sound run: above it a run warns.
 ATOL = {"position": "m", "tilt": "rad", "velocity": "m/s", "tilt_rate": "rad/s"}
 COARSE = r"raise solver\.grid\.theta and solver\.grid\.z from (\d+) and (\d+)"
 DEEPEST = -4.0
+#: Separation over σ at which a run stops, because contact laws reach no further.
 ENDINGS = tuple(f"_{part}" for part in PARTS)
-"""Separation over σ at which a run stops, because contact laws reach no further."""
+#: Crank angle by which clearance can shift the limit of reach; the widest here turns the vane by 1°.
 NEAR = math.radians(2.0)
-"""Crank angle by which clearance can shift the limit of reach; the widest here turns the vane by 1°."""
-PATIENCE = 120.0
-"""Time after which a run counts as one that hangs [s]."""
+PATIENCE = 120.0  #: Time after which a run counts as one that hangs [s].
 
 Changes = dict[str, object]
 Chance = np.random.Generator

@@ -73,12 +73,12 @@ path = solve_ivp(slope, (0.0, 1.0), [1.0, 0.0], method=MEBDF, rtol=1e-6).y
 found = {name: sha256(values.tobytes()).hexdigest() for name, values in (("wrench", wrench), ("path", path))}
 json.dump(found, sys.stdout)
 """
+#: Environment in which libraries choose functions as on the oldest processor.
 OLDEST = {
     "NPY_DISABLE_CPU_FEATURES": " ".join(name for name in __cpu_dispatch__ if __cpu_features__[name]),
     "OPENBLAS_CORETYPE": "Prescott",
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable,-AVX512F",
 }
-"""Environment in which libraries choose functions as on the oldest processor."""
 
 
 def numbers(script: str, *arguments: str, **environment: str) -> dict[str, object]:

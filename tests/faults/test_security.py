@@ -27,11 +27,11 @@ from tribodyn.simulation import simulate
 SOURCES = [Path(package.__file__).parent for package in (mebdf, tribodyn)]
 ROOT = Path(__file__).parents[2]
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__"}
+#: Files that unpickle what comes through a pipe between a process and the workers that it started.
 OWN_PIPES = {"tribodyn/studies/local.py"}
-"""Files that unpickle what comes through a pipe between a process and the workers that it started."""
 FORBIDDEN_MODULES = {"pickle", "cPickle", "cloudpickle", "dill", "joblib", "marshal", "shelve", "yaml"}
+#: They choose an engine by themselves, and what is installed adds engines; ours is named.
 XARRAY_READERS = {"open_dataset", "load_dataset", "open_dataarray", "load_dataarray", "open_mfdataset"}
-"""They choose an engine by themselves, and what is installed adds engines; ours is named."""
 SCRIPT = '<img src=x onerror="alert(1)"><script>alert(1)</script> $\\frac{ {{ 7*7 }}'
 
 

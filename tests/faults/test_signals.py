@@ -28,14 +28,12 @@ import xarray as xr
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import read
 
-SOON = 30.0
-"""Time within which a process ends after the signal [s], without what it waits for a processor."""
+SOON = 30.0  #: Time within which a process ends after the signal [s], without what it waits for a processor.
+#: Processor time until which a command is left alone; a run is certainly under way by then [s].
 LONGEST = 8.0
-"""Processor time until which a command is left alone; a run is certainly under way by then [s]."""
-PARTS, SIGNALS = 10, 20
-"""The long campaign: parts, and signals in each."""
+PARTS, SIGNALS = 10, 20  #: The long campaign: parts, and signals in each.
+#: A run of a journal in oil that would take hours, each step many milliseconds.
 ENDLESS = ["--set", "run.duration=50 s", "--set", "film.grid.theta=360", "--set", "film.grid.z=64"]
-"""A run of a journal in oil that would take hours, each step many milliseconds."""
 WEAR = ["run.output_interval=50 ms", "wear.specific_wear_rate=1.1e-12 m^2/N", "wear.cycles=400"]
 
 

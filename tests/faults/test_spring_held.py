@@ -13,8 +13,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.results.reading import column
 
 MANY = 300
-EXACT = 1e-6
-"""Difference of angles that the minimisation leaves [rad]."""
+EXACT = 1e-6  #: Difference of angles that the minimisation leaves [rad].
 
 
 def missed(held: Held) -> float:

@@ -20,8 +20,7 @@ SWEEP = [
     *("--vary", "joint.clearance=20:38:1 um", "--set", "run.duration=0.1 s"),
 ]
 NOBODY = 65534
-TCP_LISTENS, UNIX_LISTENS = "0A", 0x10000
-"""State in /proc/net/tcp, flag in /proc/net/unix."""
+TCP_LISTENS, UNIX_LISTENS = "0A", 0x10000  #: State in /proc/net/tcp, flag in /proc/net/unix.
 KNOCK = """
 import os, socket, sys
 

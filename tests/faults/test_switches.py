@@ -19,8 +19,8 @@ from scipy.sparse import eye_array, kron
 
 from mebdf import MEBDF
 
+#: Rate f(t, z), its derivative ∂f/∂z, start z(0) and solution z(t).
 Law = tuple[Callable[[float, float], float], Callable[[float, float], float], float, Callable[[float], float]]
-"""Rate f(t, z), its derivative ∂f/∂z, start z(0) and solution z(t)."""
 
 
 @dataclass(frozen=True)
@@ -257,8 +257,8 @@ def assert_honest(seeds: Sequence[int], most: int, ended: float) -> None:
     assert len(claimed) >= ended * len(seeds)
 
 
+#: A slip so short beside the steps at rest that it begins and ends between their stages.
 BETWEEN_STEPS = (1530, 2822, 3310, 7025)
-"""A slip so short beside the steps at rest that it begins and ends between their stages."""
 
 
 @pytest.mark.parametrize("seed", BETWEEN_STEPS)
@@ -276,16 +276,15 @@ def test_no_success_far_from_the_solution():
     assert_honest(range(40), 600, 0.3)
 
 
+#: A Jacobian so large by mistake that its rounding of y would explain the residual.
 BELOW_ROUNDING = (820, 1130, 1856)
-"""A Jacobian so large by mistake that its rounding of y would explain the residual."""
+#: A Jacobian differenced across a jump whose corrections are not tiny, only small beside the residual.
 MODERATE = (2110, 3638, 6713)
-"""A Jacobian differenced across a jump whose corrections are not tiny, only small beside the residual."""
-NARROW = (6129, 6849)
-"""A Jacobian that is right, on the flank of a switch narrower than the tolerance."""
+NARROW = (6129, 6849)  #: A Jacobian that is right, on the flank of a switch narrower than the tolerance.
+#: A Jacobian so large by mistake that what is lost in the first steps shows only if the end is reached.
 TOO_LARGE = (3298, 3311, 6633, 9848)
-"""A Jacobian so large by mistake that what is lost in the first steps shows only if the end is reached."""
+#: A Jacobian differenced across a jump that leads to a smaller residual on its other side, and no further.
 HALFWAY = (8555,)
-"""A Jacobian differenced across a jump that leads to a smaller residual on its other side, and no further."""
 MIXED = (110, 131, 292, 373, 895, 934, 8070, 8356, 8485)
 
 
@@ -294,8 +293,8 @@ def test_no_success_where_the_error_hides_best():
     assert_honest(BELOW_ROUNDING + MODERATE + NARROW + TOO_LARGE + HALFWAY + MIXED, 3000, 0.0)
 
 
+#: By what the Jacobian is wrong; the worst are those beside which a correction is small, but not tiny.
 TOO_LARGE_BY = (1e1, 1e2, 1e3, 1e4, 1e6, 1e8, 1e12)
-"""By what the Jacobian is wrong; the worst are those beside which a correction is small, but not tiny."""
 
 
 def largest_error(seed: int, most: int, copies: int = 1) -> float:
@@ -334,8 +333,7 @@ def largest_error(seed: int, most: int, copies: int = 1) -> float:
     return worst
 
 
-HIDDEN = (81, 165, 333, 374, 599)
-"""Where errors stay hidden longest."""
+HIDDEN = (81, 165, 333, 374, 599)  #: Where errors stay hidden longest.
 
 
 @pytest.fixture

@@ -13,8 +13,8 @@ from scipy.integrate import solve_ivp
 from tribodyn.integrate import MEBDF
 
 TOLERANCE = 1e-5
+#: Largest error of a wrong index in tolerances where those of the right one are below a tenth of it.
 MOST = 100.0
-"""Largest error of a wrong index in tolerances where those of the right one are below a tenth of it."""
 
 
 class RandomDae:

@@ -22,12 +22,10 @@ from pathlib import Path
 
 from tribodyn.cli.main import main
 
+#: What one command may take of memory, all that is imported included, and of a processor's time.
 MEGABYTES, SECONDS = 500, 10
-"""What one command may take of memory, all that is imported included, and of a processor's time."""
-PATIENCE = 600
-"""Seconds by the clock after which a command counts as one that hangs."""
-_SPARE = 2
-"""So many times as much the system gives at all."""
+PATIENCE = 600  #: Seconds by the clock after which a command counts as one that hangs.
+_SPARE = 2  #: So many times as much the system gives at all.
 
 
 @dataclass(frozen=True)
@@ -41,13 +39,13 @@ class Outcome:
 
 
 PICTURES = ("figures", "report", "results.store")
+#: What a command imports.
 NEEDED = {
     "surface": ("cases", "figures", "surfaces"),
     "report": PICTURES,
     "compare": PICTURES,
     **dict.fromkeys(("check", "show", "run"), (*PICTURES, "simulation")),
 }
-"""What a command imports."""
 
 
 class Watched:

@@ -22,6 +22,7 @@ from tribodyn.results import netcdf_content
 
 STORED: Final = Path(__file__).with_name("messages.txt")
 
+#: Each is refused. ``file`` is a line of prose, ``empty`` a folder, ``done`` has another case's result.
 COMMANDS: Final = (
     "rum vsv",
     "Run vsv",
@@ -80,7 +81,6 @@ COMMANDS: Final = (
     "bounce vsv --law RSDC",
     "reproduce fig7",
 )
-"""Each is refused. ``file`` is a line of prose, ``empty`` a folder, ``done`` has another case's result."""
 
 FILES: Final = (
     "",

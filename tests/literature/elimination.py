@@ -12,6 +12,7 @@ import numpy as np
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y
 
+#: What ``paper`` mends of Eq. 46 and Appendix 2, as the table of the manual calls it.
 MENDED = (
     "A_12",
     "A_42",
@@ -26,10 +27,8 @@ MENDED = (
     "joints of rod 3",
     "vane centre",
 )
-"""What ``paper`` mends of Eq. 46 and Appendix 2, as the table of the manual calls it."""
 LARGE = 2.0**20
-F32, F21, BX, BZ, F43Y = 0, 3, 6, 7, 8
-"""Columns of the unknown reactions."""
+F32, F21, BX, BZ, F43Y = 0, 3, 6, 7, 8  #: Columns of the unknown reactions.
 
 
 def instant(vsv, data, memory, t, y):

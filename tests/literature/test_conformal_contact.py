@@ -26,8 +26,8 @@ from tribodyn.kernels.joints.surface.memory import new_memory
 NU = 0.3
 KAPPA = 3.0 - 4.0 * NU
 RADIUS, ROOM, LENGTH, MODULUS = 10e-3, 40e-6, 20e-3, 8e9
+#: Over these the load grows by three and a half decades.
 HALF_ANGLES = (4.0, 8.0, 15.0, 30.0, 45.0, 60.0, 70.0)
-"""Over these the load grows by three and a half decades."""
 
 
 def pressed(degrees: float, *, rigid_pin: bool) -> tuple[float, float, float]:

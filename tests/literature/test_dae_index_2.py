@@ -13,8 +13,8 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks import dae
 from benchmarks.dae_index_2 import PUBLISHED, pump, slider_crank, stabilised_caraxis
 
+#: The car axis starts with multipliers of zero; its own are 5e-9 and 1e-9.
 pytestmark = pytest.mark.filterwarnings("ignore:The values at t = 0 were not consistent")
-"""The car axis starts with multipliers of zero; its own are 5e-9 and 1e-9."""
 
 
 def test_the_elastic_slider_crank_has_the_published_digits_for_the_published_work():

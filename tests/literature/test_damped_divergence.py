@@ -17,8 +17,7 @@ from tribodyn.mechanisms.peaks import of_reversals
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
 OF_TABLE_3 = 0.84
-HALF_LOAD = 0.5 * OF_TABLE_3
-"""Size of M_air in Table 3 and half of it [N m]."""
+HALF_LOAD = 0.5 * OF_TABLE_3  #: Size of M_air in Table 3 and half of it [N m].
 REVERSAL = np.pi
 
 

@@ -10,8 +10,7 @@ from tribodyn.mechanisms.catalogue import parse_case
 
 LENGTH, WIDTH, HEIGHT = 50e-3, 10e-3, 3e-3
 MODULUS, DENSITY, POISSON = 114e9, 4430.0, 0.34
-PIECES, FINE = 8, 32
-"""Of ours, and of Exudyn's, whose straight pieces converge from below."""
+PIECES, FINE = 8, 32  #: Of ours, and of Exudyn's, whose straight pieces converge from below.
 LEVER = """
 case = "mechanism"
 run.analysis = "static"

@@ -24,11 +24,11 @@ from benchmarks.published import nand
 from mebdf import solve_dae
 
 DECADES, A_DECADE = 8, 16
+#: Digits asked for: a row is a decade, with 3, 4, …, 10 in its middle.
 ASKED = 2.5 + (np.arange(DECADES * A_DECADE).reshape(DECADES, A_DECADE) + 0.5) / A_DECADE
-"""Digits asked for: a row is a decade, with 3, 4, …, 10 in its middle."""
 NAMES = [name for name in PROBLEMS if name != "RING"]
+#: Digits that rounding leaves: y2 − y3 − y4 stays zero to 1e-24 only, 1e-8 of what y3 is at the end.
 ROUNDING = {"E5": 8.0}
-"""Digits that rounding leaves: y2 − y3 − y4 stays zero to 1e-24 only, 1e-8 of what y3 is at the end."""
 
 
 @cache

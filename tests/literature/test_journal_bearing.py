@@ -13,9 +13,9 @@ import pytest
 from tribodyn.lubrication import Film, FilmGrid, FilmState, film_equilibrium, film_state
 
 ETA, CLEARANCE, RADIUS, OMEGA = 0.01, 5e-6, 5e-3, 100.0
-WIDTHS = (1.0, 0.5, 0.25)
-"""B/D of the columns."""
+WIDTHS = (1.0, 0.5, 0.25)  #: B/D of the columns.
 
+#: ε: So, β [°] and Q for each B/D.
 ROTATION = {
     0.1: ((0.1196, 0.0368, 0.0098), (79.41, 81.767, 82.481), (0.1603, 0.0939, 0.0492)),
     0.2: ((0.2518, 0.0783, 0.0210), (73.858, 75.142, 75.287), (0.3196, 0.1878, 0.0984)),
@@ -28,8 +28,8 @@ ROTATION = {
     0.9: ((8.4352, 5.0881, 2.1595), (26.482, 23.566, 21.790), (1.3898, 0.8453, 0.4436)),
     0.95: ((18.7895, 13.3083, 6.9248), (19.450, 17.265, 15.632), (1.4655, 0.8984, 0.4687)),
 }
-"""ε: So, β [°] and Q for each B/D."""
 
+#: ε (negative: moving away): So_V for each B/D.
 SQUEEZE = {
     -0.95: (0.5177, 0.1372, 0.0351),
     -0.9: (0.5518, 0.1466, 0.0376),
@@ -53,10 +53,9 @@ SQUEEZE = {
     0.9: (160.25, 104.75, 46.559),
     0.95: (490.18, 371.98, 205.15),
 }
-"""ε (negative: moving away): So_V for each B/D."""
 
+#: Entries left out, and what they probably should be: one digit off, in columns that agree to 0.1 %.
 MISPRINTS = {(0.1, 0.5): 0.9314, (0.2, 0.5): 1.2336}
-"""Entries left out, and what they probably should be: one digit off, in columns that agree to 0.1 %."""
 
 
 def film(width: float, boundary: str) -> Film:

@@ -13,10 +13,8 @@ import tribodyn as td
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.results import summarise
 
-FINAL = (14.563e-6, 7.281e-6)
-"""Where statics put the centre [m] (model, 9)."""
-PEAK = 18.376e-6
-"""Eccentricity at which the undamped journal turns back [m] (model, 9)."""
+FINAL = (14.563e-6, 7.281e-6)  #: Where statics put the centre [m] (model, 9).
+PEAK = 18.376e-6  #: Eccentricity at which the undamped journal turns back [m] (model, 9).
 LAWS = ("rsdc", "ke")
 
 

@@ -16,8 +16,8 @@ from tribodyn.kernels.vsv.motion import ring_centre
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 TIMES = np.linspace(0.05, 6.2, 60)
+#: Columns of the unknowns: F_32 and F_21 (three each), F_bx, F_bz and F_43y.
 LINK, CRANK, BX, BZ, F43Y = 0, 3, 6, 7, 8
-"""Columns of the unknowns: F_32 and F_21 (three each), F_bx, F_bz and F_43y."""
 
 
 @dataclass(frozen=True)

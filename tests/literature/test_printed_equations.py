@@ -7,11 +7,11 @@ from tests.literature.elimination import MENDED, equations, instant
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 
 TIMES = (0.3, 1.4, 3.5, 5.0)
+#: In contact, on the move, with both tilts.
 STATE = np.array([9e-6, -17.9e-6, 4e-4, -3e-4, 1e-3, -2e-3, 0.2, -0.3])
-"""In contact, on the move, with both tilts."""
 EQUAL = 1e-10
+#: Without contact, tilted so far that sines and tangents differ.
 TIPPED = np.array([3e-6, -5e-6, 0.03, -0.05, 1e-3, -2e-3, 2.0, -3.0])
-"""Without contact, tilted so far that sines and tangents differ."""
 
 
 def at(make_vsv, formulation, t, state, clearance):
@@ -28,8 +28,7 @@ def moment(request, make_vsv):
     return lambda formulation, t: at(make_vsv, formulation, t, state, clearance)
 
 
-ORDER = [1, 3, 4, 2]
-"""Rows 1 to 4 of Eq. 46 in the order of the kernels, whose signs are opposite."""
+ORDER = [1, 3, 4, 2]  #: Rows 1 to 4 of Eq. 46 in the order of the kernels, whose signs are opposite.
 
 
 @pytest.mark.parametrize("t", TIMES)

@@ -10,8 +10,7 @@ from tribodyn.joints.shapes.cylinder import FEWEST_ACROSS, Cylinder
 from tribodyn.kernels.lookup import pressure_and_damping
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 
-LOADED = 0.1
-"""Force [N] from which a relative error means anything; the face of the vane carries a few."""
+LOADED = 0.1  #: Force [N] from which a relative error means anything; the face of the vane carries a few.
 
 
 @pytest.fixture(scope="module")

@@ -17,12 +17,9 @@ from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.mechanisms.bushing import grid_of
 
 FINEST = (384, 96)
-AGREE = 1e-3
-"""What is asked of the default grid in smooth motion, of the force and of the moment."""
-LOADED = 1.0
-"""Force [N] from which a relative error means anything; the smooth motion has 13 to 30 N."""
-SETTLED = 0.3
-"""Time after a reversal at which the ringing is over [s]."""
+AGREE = 1e-3  #: What is asked of the default grid in smooth motion, of the force and of the moment.
+LOADED = 1.0  #: Force [N] from which a relative error means anything; the smooth motion has 13 to 30 N.
+SETTLED = 0.3  #: Time after a reversal at which the ringing is over [s].
 
 
 @pytest.fixture(scope="module", params=[20e-6, 40e-6], ids=["20um", "40um"])

@@ -39,8 +39,7 @@ def exact_2(t):
     return np.array([y, y * np.sin(t), slope / (1.0 + y)])
 
 
-TOLERANCE = 1e-11
-"""Some 1e-12 of it is left by Newton's iteration."""
+TOLERANCE = 1e-11  #: Some 1e-12 of it is left by Newton's iteration.
 
 PROBLEMS = {
     "index 1": (index_1, exact_1, [1.0, 0.0], [1, 1]),
@@ -84,8 +83,8 @@ def global_error(name, k, n_steps):
     return error
 
 
+#: Short enough for the leading term, long enough to stay clear of what Newton's iteration leaves.
 STEPS = {1: (320, 640), 2: (160, 320), 3: (113, 160), 4: (160, 226), 5: (113, 160), 6: (57, 80), 7: (57, 80)}
-"""Short enough for the leading term, long enough to stay clear of what Newton's iteration leaves."""
 
 
 @pytest.mark.parametrize("k", range(1, MAX_K + 1))

@@ -10,6 +10,7 @@ from tribodyn.integrate import integrate
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun
 from tribodyn.papers.cheng_2022.reduced.descriptor import MECHANISM
 
+#: Each peak, and what it is the peak of.
 PEAKED = {
     "contact_force": lambda row: np.hypot(row["F_cx"], row["F_cy"]),
     "rigid_force": lambda row: np.hypot(row["F_kx"], row["F_ky"]),
@@ -17,9 +18,7 @@ PEAKED = {
     "drive_moment": lambda row: np.abs(row["M_d"]),
     "pressure": lambda row: row["p_max"],
 }
-"""Each peak, and what it is the peak of."""
-AROUND, APART = 50e-6, 1e-6
-"""How far around a peak rows are taken, and how far apart [s]."""
+AROUND, APART = 50e-6, 1e-6  #: How far around a peak rows are taken, and how far apart [s].
 
 
 def rows_around(case, times):

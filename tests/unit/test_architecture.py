@@ -87,6 +87,19 @@ def test_first_lines_of_docstrings_have_a_noun_as_their_object() -> None:
     assert [(str(path), line) for path in SOURCES for line in CLAUSE.findall(path.read_text("utf-8"))] == []
 
 
+def test_fields_are_described_beside_them() -> None:
+    """A name and a unit that stand twice drift apart."""
+    parts = (node for path in SOURCES for node in ast.parse(path.read_text("utf-8")).body)
+    classes = [part for part in parts if isinstance(part, ast.ClassDef) and _is_data(part)]
+    assert len(classes) > 100
+    assert [node.name for node in classes if "\n\nAttributes\n" in (ast.get_docstring(node) or "")] == []
+
+
+def _is_data(node: ast.ClassDef) -> bool:
+    kinds = [ast.unparse(kind) for kind in (*node.decorator_list, *node.bases)]
+    return any(kind.startswith(("dataclass", "NamedTuple")) for kind in kinds)
+
+
 def _is_long(path: Path) -> bool:
     return len(path.read_text(encoding="utf-8").splitlines()) > LONG_FILE
 

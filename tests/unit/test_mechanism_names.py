@@ -11,16 +11,13 @@ from tribodyn.mechanisms.catalogue import FOLDERS
 
 SOURCE = Path(__file__).parents[2] / "src" / "tribodyn"
 CATALOGUE = SOURCE / "mechanisms" / "catalogue.py"
+#: The help of a command for films shows a built-in case with one.
 EXAMPLE = SOURCE / "cli" / "commands" / "stribeck.py"
-"""The help of a command for films shows a built-in case with one."""
-ORDINARY = ("mechanism",)
-"""Names that are words of prose, too: an import is what counts."""
-PRESETS = {"mechanism": {"presets"}}
-"""Mechanisms whose cases run as those of another one."""
+ORDINARY = ("mechanism",)  #: Names that are words of prose, too: an import is what counts.
+PRESETS = {"mechanism": {"presets"}}  #: Mechanisms whose cases run as those of another one.
+#: The list of what is compiled begins with the laws of elements, which stand there.
 LISTING = SOURCE / "kernels" / "jit.py"
-"""The list of what is compiled begins with the laws of elements, which stand there."""
-PUBLIC = SOURCE / "__init__.py"
-"""What a user imports from the package says where it is."""
+PUBLIC = SOURCE / "__init__.py"  #: What a user imports from the package says where it is.
 
 
 @pytest.mark.parametrize("name", ["vsv", *(package.rpartition(".")[2] for package in FOLDERS.values())])

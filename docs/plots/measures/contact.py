@@ -19,6 +19,7 @@ from tribodyn.papers.cheng_2022.runs import Runs
 from tribodyn.simulation.bounce import BounceRow, bounces
 
 RESTITUTION: Final = 0.7
+#: Laws and damping factors that the page lists.
 BOUNCES: Final = (
     ("ke", "lankarani-nikravesh"),
     ("ke", "flores"),
@@ -28,12 +29,10 @@ BOUNCES: Final = (
     ("rsdc", "flores"),
     ("rsdc", "calibrated"),
 )
-"""Laws and damping factors that the page lists."""
+#: Pressures that the plates of the page would reach without damping [Pa].
 PLATES: Final = (0.3e6, 10e6, 100e6, 400e6, 1500e6)
-"""Pressures that the plates of the page would reach without damping [Pa]."""
 ASPERITIES: Final = ("gt", "gw", "ke", "ceb", "jg")
-LEVEL: Final = 14e6
-"""Pressure at which depths of laws are compared [Pa]."""
+LEVEL: Final = 14e6  #: Pressure at which depths of laws are compared [Pa].
 
 
 def the_law(name: str, **more: object) -> ContactLaw:
@@ -157,6 +156,7 @@ def plate_returned(runs: Runs, reached: float) -> str:
     return f"{plate(reached).restitution:.3f}"
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     **{f"elastic-plastic share, h* = {h} [%]": partial(elastic_plastic, h_star=float(h)) for h in (0, 2)},
     **{f"power law low, h* = {h} [%]": partial(power_law, h_star=float(h)) for h in (2, 3)},
@@ -187,4 +187,3 @@ NUMBERS: Final[Numbers] = {
         for what, measure in (("depth", depth), ("meant", meant_there), ("returned", plate_returned))
     },
 }
-"""Numbers by name."""

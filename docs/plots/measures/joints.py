@@ -13,8 +13,7 @@ from tribodyn.papers.cheng_2022.claims.all_joints import ONE, means
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.runs import JOINTS, Runs
 
-CLEARANCES: Final = (20, 40)
-"""Clearances of the page [µm]."""
+CLEARANCES: Final = (20, 40)  #: Clearances of the page [µm].
 
 
 def factor(runs: Runs, clearance: float, guide: object = None) -> str:
@@ -71,6 +70,7 @@ def without_guide(runs: Runs, clearance: float) -> str:
     return f"{means(Trial(runs, 'exact'), clearance, others)[0] / alone(runs, clearance)[ONE]:.1f}"
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     **{
         f"factor of all joints but the guide, {at} µm": partial(without_guide, clearance=at * 1e-6)
@@ -102,4 +102,3 @@ NUMBERS: Final[Numbers] = {
     "errors do not add, each direction [%]": partial(missed, ways=slice(1, 3)),
     **{f"{joint} over trunnion": partial(over_trunnion, joint=joint) for joint in ("crank-pivot", "guide")},
 }
-"""Numbers by name."""

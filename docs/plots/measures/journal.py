@@ -61,6 +61,7 @@ def least_friction() -> tuple[float, float, float]:
     return float(curve["speed"].values[at]), float(curve["friction_coefficient"].values[at]), contact
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     "dry equilibrium, x [µm]": partial(balance, axis="x"),
     "dry equilibrium, y [µm]": partial(balance, axis="y"),
@@ -86,4 +87,3 @@ NUMBERS: Final[Numbers] = {
     "least friction": lambda runs: f"{least_friction()[1]:.3f}",
     "least friction, contact [%]": lambda runs: f"{least_friction()[2]:.2f}",
 }
-"""Numbers by name."""

@@ -17,13 +17,13 @@ LAWS: Final = ("gt", "gw", "ke", "ceb", "jg", "linear")
 ROUGH: Final = tuple(name for name in LAWS if name != "linear")
 GRIDS: Final = ((96, 16), (192, 32), (384, 32))
 POINTS: Final = ("point-lankarani-nikravesh", "point-johnson")
+#: How the contact is damped in the comparison of grids.
 DAMPINGS: Final[dict[str, dict[str, object]]] = {
     "default": {},
     "undamped": {"contact.law": "ke"},
     "100 s/m": {"contact.law": "ke", "contact.loss_coefficient": "100 s/m"},
     "v_min 20 mm/s": {"contact.minimum_entry_velocity": "20 mm/s"},
 }
-"""How the contact is damped in the comparison of grids."""
 HARDNESS: Final = td.load_case("vsv").surfaces.bushing.hardness
 
 
@@ -108,6 +108,7 @@ def point_peak(runs: Runs, contact: str) -> str:
     return f"{first_reversal(vsv(runs, joint__contact=contact), 'contact_force'):.0f}"
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     **{
         f"peak, v_min {floor} [N]": partial(
@@ -156,4 +157,3 @@ NUMBERS: Final[Numbers] = {
         for contact in ("surface", *POINTS)
     },
 }
-"""Numbers by name."""

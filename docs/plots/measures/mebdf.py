@@ -13,6 +13,7 @@ from mebdf.kernels import acceptance, control, core, matrix, state, turning
 from mebdf.kernels.state import Settings
 from tribodyn.papers.cheng_2022.runs import Runs
 
+#: Constants by name, as fractions where no unit is given.
 CONSTANTS: Final[dict[str, float]] = {
     "share of the tolerance": Settings.tight,
     "error that shortens a step": Settings.early,
@@ -52,7 +53,6 @@ CONSTANTS: Final[dict[str, float]] = {
     "least frequency": float(FREQUENCIES[0]),
     "largest frequency": float(FREQUENCIES[-1]),
 }
-"""Constants by name, as fractions where no unit is given."""
 
 
 def shown(runs: Runs, value: float) -> str:
@@ -60,5 +60,5 @@ def shown(runs: Runs, value: float) -> str:
     return f"{value:.3g}".replace("e-0", "e-").replace("e+0", "e")
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {f"MEBDF: {name}": partial(shown, value=value) for name, value in CONSTANTS.items()}
-"""Numbers by name."""

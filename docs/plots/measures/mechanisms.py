@@ -11,8 +11,7 @@ from measures.base import Numbers, force, key_result, span, spread
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.runs import Runs, is_smooth
 
-NEAR: Final = 10.0 ** np.linspace(-0.1, 0.1, 7)
-"""Factors on a tolerance, within 1.6 of each other."""
+NEAR: Final = 10.0 ** np.linspace(-0.1, 0.1, 7)  #: Factors on a tolerance, within 1.6 of each other.
 BRONZE: Final = {
     "joints.wrist.clearance.radial": "50 um",
     "surfaces.trunnion.material": "steel-52100",
@@ -69,6 +68,7 @@ def apart(runs: Runs, clearance: int, what: str) -> str:
     return f"{both(runs, clearance)[what]:.2g}"
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     "four-bar, sustained [N]": partial(four_bar, name="joint_force_sustained_N"),
     "four-bar, peak [N]": partial(four_bar, name="joint_force_max_N"),
@@ -84,4 +84,3 @@ NUMBERS: Final[Numbers] = {
         for clearance in (20, 40)
     },
 }
-"""Numbers by name."""

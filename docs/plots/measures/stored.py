@@ -38,6 +38,7 @@ def exudyn_angle(runs: Runs) -> str:
     return f"{min(one['angle'] for one in peers if one['name'] == 'Exudyn, surface contact'):.0e}"
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     "steps saved without cut-off [%]": partial(saved, variant="no clip", what="steps"),
     "steps saved without collar [%]": partial(saved, variant="no moment of the collar", what="steps"),
@@ -53,4 +54,3 @@ NUMBERS: Final[Numbers] = {
     "Exudyn over ours, most": partial(exudyn, end=-1),
     "Exudyn, surface contact, angle [deg]": exudyn_angle,
 }
-"""Numbers by name."""

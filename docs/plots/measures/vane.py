@@ -15,8 +15,7 @@ from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.damping import MOMENTS, under_moment
 from tribodyn.papers.cheng_2022.runs import Runs, smooth
 
-CLEARANCES: Final = (20, 40, 80, 160)
-"""Of the table of default grids [µm]."""
+CLEARANCES: Final = (20, 40, 80, 160)  #: Of the table of default grids [µm].
 
 
 def by_cycle(runs: Runs, name: str, clearance: str) -> float:
@@ -109,6 +108,7 @@ def floors(runs: Runs) -> FloatArray:
     )
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     "damping heat, 20 µm [mJ]": partial(damping_heat, clearance="20 um"),
     "damping heat, 40 µm [mJ]": partial(damping_heat, clearance="40 um"),
@@ -128,4 +128,3 @@ NUMBERS: Final[Numbers] = {
     **{f"grid error, {c} µm [%]": partial(grid_error, clearance=f"{c} um") for c in CLEARANCES},
     "peak, v_min 1 µm/s over 1 mm/s": lambda runs: f"{floors(runs)[0] / floors(runs)[1]:.1f}",
 }
-"""Numbers by name."""

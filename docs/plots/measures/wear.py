@@ -14,19 +14,19 @@ from tribodyn.papers.cheng_2022.claims.wear import profile
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs
 from tribodyn.papers.cheng_2022.wear import worn
 
+#: The campaigns that the figures of the page show.
 MILLION: Final[dict[str, object]] = {
     "wear.cycles": 1_000_000,
     "wear.jump_limit": 0.1,
     "run.output_interval": "20 ms",
 }
-"""The campaigns that the figures of the page show."""
+#: Changes of a campaign of 100 000 cycles.
 HOW_SURE: Final[dict[str, dict[str, object]]] = {
     "default": {},
     "jumps halved": {"wear.jump_limit": 0.025, "wear.jump_depth": 0.125},
     "grid 64 × 32": {"solver.grid.z": 32},
     "grid 144 × 24": {"solver.grid.theta": 144, "solver.grid.z": 24},
 }
-"""Changes of a campaign of 100 000 cycles."""
 
 
 def million(runs: Runs, clearance: str = "20 um") -> xr.Dataset:
@@ -106,6 +106,7 @@ def paper_ratio(runs: Runs, inside: float) -> str:
     return f"{profile(trial, 40e-6)(inside) / profile(trial, 20e-6)(inside):.2f}"
 
 
+#: Numbers by name.
 NUMBERS: Final[Numbers] = {
     "wear, 400 cycles [nm]": lambda runs: f"{1e3 * depth_at(first_400(runs), 400.0):.0f}",
     "wear, 400 cycles, slowed [%]": slowed,
@@ -127,4 +128,3 @@ NUMBERS: Final[Numbers] = {
         for inside in (0.0, 0.1, 0.5)
     },
 }
-"""Numbers by name."""

@@ -13,10 +13,8 @@ from tribodyn.cases.messages import Remarks
 from tribodyn.cases.units import from_si, number_in
 
 _TURN: Final = 2.0 * math.pi
-_ROUNDED: Final = 1.0e-4
-"""Share of a turn by which rounded angles may miss whole turns."""
-_SAME: Final = 1.0e-9
-"""Share of a cycle, or of the length of a table, that counts as nothing."""
+_ROUNDED: Final = 1.0e-4  #: Share of a turn by which rounded angles may miss whole turns.
+_SAME: Final = 1.0e-9  #: Share of a cycle, or of the length of a table, that counts as nothing.
 _DIGITS: Final = 4
 _SHOWN: Final = {"times": "s", "angles": "deg", "positions": "mm", "speeds": "rad/s", "velocities": "m/s"}
 
@@ -36,33 +34,15 @@ def lasts_a_cycle(times: Sequence[float], cycle: float | None) -> bool:
 
 @dataclass(frozen=True)
 class FollowedTable:
-    """A table that a load, a drive or a temperature of a case follows.
+    """A table that a load, a drive or a temperature of a case follows."""
 
-    Attributes
-    ----------
-    path
-        Of the table in the case: ``loads.gas.force``.
-    over
-        What it runs over, one of :data:`~tribodyn.cases.columns.KNOTS`.
-    knots
-        Where it has values [SI].
-    ends
-        First and last value as text; empty for a map.
-    follows
-        Name of the coordinate that it follows, such as that of a joint; empty for time.
-    period
-        Distance after which it repeats [SI]; 0 where its first and last value hold beyond.
-    duration
-        Time of the run [s].
-    """
-
-    path: str
-    over: str
-    knots: tuple[float, ...]
-    ends: tuple[str, ...]
-    follows: str
-    period: float
-    duration: float
+    path: str  #: Of the table in the case: ``loads.gas.force``.
+    over: str  #: What it runs over, one of :data:`~tribodyn.cases.columns.KNOTS`.
+    knots: tuple[float, ...]  #: Where it has values [SI].
+    ends: tuple[str, ...]  #: First and last value as text; empty for a map.
+    follows: str  #: Name of the coordinate that it follows, such as that of a joint; empty for time.
+    period: float  #: Distance after which it repeats [SI]; 0 where its first and last value hold beyond.
+    duration: float  #: Time of the run [s].
 
     def note(self) -> str:
         """Return that it repeats, and where it jumps."""

@@ -55,13 +55,13 @@ AnyCase = TypeVar("AnyCase", bound="Case")
 class Group(BaseModel):
     """A table of a case file: frozen, and closed to keys it does not declare."""
 
+    #: Pairs of its keys of which only one may be given.
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = ()
-    """Pairs of its keys of which only one may be given."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=False, defer_build=True)
 
+    #: Whether the keys in its :func:`demand` are those of the table, and not of the whole case.
     KEYS_BEGIN_HERE: ClassVar[bool] = False
-    """Whether the keys in its :func:`demand` are those of the table, and not of the whole case."""
 
     @field_validator("*", mode="after")
     @classmethod
@@ -147,8 +147,8 @@ class Case(Group):
     _linked: dict[str, Any] = PrivateAttr(default_factory=dict)
     _given: dict[str, Any] = PrivateAttr(default_factory=dict)
     _scans: dict[str, Any] = PrivateAttr(default_factory=dict)
+    #: Values as given, by dotted path, where others stand for some of them.
     _written: dict[str, Value] = PrivateAttr(default_factory=dict)
-    """Values as given, by dotted path, where others stand for some of them."""
 
     @model_validator(mode="wrap")
     @classmethod

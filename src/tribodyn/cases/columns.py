@@ -31,21 +31,18 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import is_comment, named, read_regular, separator_of, text_of, with_points
 from tribodyn.core.quoting import LONGEST, brief
 
+#: Name of a key that names a file; beside it stand those of :data:`KNOTS` and ``values``.
 TABLE: Final = "table"
-"""Name of a key that names a file; beside it stand those of :data:`KNOTS` and ``values``."""
-MAP: Final = "map"
-"""Name of a key that names the file of a map."""
-CSV: Final = "csv"
-"""Name of a key that names a file of which one column is needed."""
+MAP: Final = "map"  #: Name of a key that names the file of a map.
+CSV: Final = "csv"  #: Name of a key that names a file of which one column is needed.
 COLUMN: Final = "column"
 VALUES: Final = "values"
 TIMES: Final = "times"
+#: Quantities of the first column, by the key that takes it, with their units.
 KNOTS: Final = {TIMES: "s", "angles": "rad", "positions": "m", "speeds": "rad/s", "velocities": "m/s"}
-"""Quantities of the first column, by the key that takes it, with their units."""
 LARGEST: Final = 20_000_000
 MOST_ROWS: Final = 10_000
-MOST_OF_MAP: Final = 50_000
-"""Numbers that a map holds, at most."""
+MOST_OF_MAP: Final = 50_000  #: Numbers that a map holds, at most.
 
 
 class TableProblem(ValueError):

@@ -8,13 +8,12 @@ from typing import Final
 
 from tribodyn.cases.units import SI_UNITS, base_of
 
+#: Powers of base units other than zero, by their names, sorted.
 Dimensions = tuple[tuple[str, Fraction], ...]
-"""Powers of base units other than zero, by their names, sorted."""
 PLAIN: Final[Dimensions] = ()
 ANGLE: Final[Dimensions] = (("radian", Fraction(1)),)
 PER_TIME: Final[Dimensions] = (("second", Fraction(-1)),)
-ROUNDING: Final = 1e-9
-"""Relative error of a sum of zeros of a temperature scale, at most."""
+ROUNDING: Final = 1e-9  #: Relative error of a sum of zeros of a temperature scale, at most.
 
 
 class ExpressionProblem(ValueError):
@@ -23,24 +22,14 @@ class ExpressionProblem(ValueError):
 
 @dataclass(frozen=True)
 class Dimensioned:
-    """A number with its dimensions.
+    """A number with its dimensions."""
 
-    Attributes
-    ----------
-    value
-        In SI units.
-    dimensions
-        Of it.
-    zeros
-        Number of zeros of a temperature scale in the value, such as that of degC: 1 for a temperature in
-        degC, 0 for a difference of two, 2 for their sum. None without such a scale.
-    turns
-        Power of turns that the value counts instead of radians: 1 for a frequency, 0 for 2 pi times that.
-    """
-
-    value: float
-    dimensions: Dimensions = PLAIN
+    value: float  #: In SI units.
+    dimensions: Dimensions = PLAIN  #: Of it.
+    #: Number of zeros of a temperature scale in the value, such as that of degC: 1 for a temperature in degC,
+    #: 0 for a difference of two, 2 for their sum. None without such a scale.
     zeros: float | None = None
+    #: Power of turns that the value counts instead of radians: 1 for a frequency, 0 for 2 pi times that.
     turns: Fraction = Fraction(0)
 
     @property

@@ -10,30 +10,14 @@ from tribodyn.core.quoting import meant
 
 @dataclass(frozen=True)
 class Entry:
-    """One value as the user wrote it.
+    """One value as the user wrote it."""
 
-    Attributes
-    ----------
-    value
-        As parsed from TOML or given in Python.
-    source
-        File or option that holds it.
-    text
-        Whether numbers and switches may be spelled as text.
-    folder
-        Where the names of files begin; None is the current directory.
-    built_in
-        Whether a built-in case gives it, and no user.
-    origin
-        Where a value of a built-in case comes from, if it says so.
-    """
-
-    value: object
-    source: str
-    text: bool = False
-    folder: Path | None = None
-    built_in: bool = False
-    origin: str = ""
+    value: object  #: As parsed from TOML or given in Python.
+    source: str  #: File or option that holds it.
+    text: bool = False  #: Whether numbers and switches may be spelled as text.
+    folder: Path | None = None  #: Where the names of files begin; None is the current directory.
+    built_in: bool = False  #: Whether a built-in case gives it, and no user.
+    origin: str = ""  #: Where a value of a built-in case comes from, if it says so.
 
 
 def read_entry(key: Key, entry: Entry) -> Value:

@@ -31,8 +31,7 @@ from tribodyn.cases.dimensions import (
 from tribodyn.cases.units import UnitProblem, base_of, counts_from_zero, to_si_base
 from tribodyn.core.quoting import brief, meant
 
-LONGEST: Final = 200
-"""Characters of an expression."""
+LONGEST: Final = 200  #: Characters of an expression.
 _DEEPEST: Final = 30
 _LARGEST_POWER: Final = 8.0
 _LARGEST_ROOT: Final = 8
@@ -132,6 +131,7 @@ def _value(x: Dimensioned) -> float:
     return x.value
 
 
+#: Functions of expressions, with the number of their arguments.
 FUNCTIONS: Final[Mapping[str, tuple[int, Function]]] = {
     "sqrt": (1, lambda x: _power(x, Dimensioned(0.5))),
     "abs": (1, lambda x: replace(x, value=abs(x.value))),
@@ -146,9 +146,7 @@ FUNCTIONS: Final[Mapping[str, tuple[int, Function]]] = {
     "min": (2, _extreme(min)),
     "max": (2, _extreme(max)),
 }
-"""Functions of expressions, with the number of their arguments."""
-OF_ANY_NUMBER: Final = ("min", "max")
-"""Functions that take more arguments, too."""
+OF_ANY_NUMBER: Final = ("min", "max")  #: Functions that take more arguments, too.
 CONSTANTS: Final = {"pi": Dimensioned(math.pi, turns=Fraction(-1))}
 _OPERATIONS: Final[Mapping[type[ast.operator], Function]] = {
     ast.Add: lambda a, b: _sum(a, b, 1),

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from tribodyn.contact import ContactLaw, SurfacePair
 
 TABLE_1 = "paper, Table 1"
-MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")
-"""Damping factors that use ``contact.design_pressure``."""
+MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")  #: Damping factors that use ``contact.design_pressure``.
 _MOST_OUTPUT_TIMES = 2_000_000
 
 

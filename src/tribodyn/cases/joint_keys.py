@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from tribodyn.lubrication import Film
 
 
+#: The contact over the surface, by its name in :data:`tribodyn.joints.CONTACTS`, which is slow to import.
 SURFACE: Final = "surface"
-"""The contact over the surface, by its name in :data:`tribodyn.joints.CONTACTS`, which is slow to import."""
 
 
 class LinerKeys(Group):
@@ -262,8 +262,8 @@ class SurfaceWear(Group):
 class Wear(SurfaceWear):
     """Wear of the bushing."""
 
+    #: Keys that end a campaign, by what its history calls the number that is limited.
     LIMIT_OF: ClassVar[Mapping[str, str]] = {"wear_depth_max": "wear.depth_limit"}
-    """Keys that end a campaign, by what its history calls the number that is limited."""
 
     paper_hardness_divisor: float = number(
         0.0, "the paper's figures come out when the rate is divided by 65; 0 is off", "paper, Eq. 47", ge=0

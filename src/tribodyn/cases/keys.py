@@ -32,17 +32,15 @@ from tribodyn.cases.units import (
 )
 from tribodyn.core.quoting import brief
 
+#: Value of a key once read: a number in SI units, a switch or a name; one or several.
 Value: TypeAlias = float | int | bool | str | tuple[float, ...] | tuple[str, ...]
-"""Value of a key once read: a number in SI units, a switch or a name; one or several."""
 
-ASSUMED = "assumed"
-"""Source of a value that the paper does not give."""
+ASSUMED = "assumed"  #: Source of a value that the paper does not give.
 
-ANY_NAME = "*"
-"""Stands in the path of a key for the name that a user gives a table."""
+ANY_NAME = "*"  #: Stands in the path of a key for the name that a user gives a table.
 
+#: Key of a table that may be given as that value alone: ``speed = "5000 rpm"`` is ``speed.value``.
 VALUE = "value"
-"""Key of a table that may be given as that value alone: ``speed = "5000 rpm"`` is ``speed.value``."""
 _BOUNDS = ("gt", "ge", "lt", "le")
 _LONGEST_SHOWN = 60
 _MOST_ELEMENTS = 20
@@ -56,49 +54,25 @@ class ValueProblem(ValueError):
 
 @dataclass(frozen=True)
 class Key:
-    """One key of a case file.
+    """One key of a case file."""
 
-    Attributes
-    ----------
-    path
-        Dotted path, such as ``joint.clearance``.
-    kind
-        ``quantity``, ``number``, ``count``, ``switch``, ``choice``, ``name``, ``file`` or ``text``; where it
-        holds several values ``vector``, ``series`` or ``names``.
-    description, source
-        One line each; where the default comes from.
-    default
-        Default value (SI), or None where it depends on other keys.
-    unit
-        Unit in which the value is shown; empty for keys without one.
-    example
-        A value as a person writes it, without quotes.
-    limits
-        Bounds as a person writes them, such as ``> 0``.
-    choices
-        Allowed names; empty for other kinds.
-    length
-        How many values it holds; 0 for one, or for any number.
-    required
-        Whether it must be given.
-    profile
-        Whether it is a root mean square height, for which other measures are understood.
-    bounds
-        The limits as numbers (SI), each after its name: ``gt``, ``ge``, ``lt`` or ``le``.
-    """
-
-    path: str
+    path: str  #: Dotted path, such as ``joint.clearance``.
+    #: ``quantity``, ``number``, ``count``, ``switch``, ``choice``, ``name``, ``file`` or ``text``; where it
+    #: holds several values ``vector``, ``series`` or ``names``.
     kind: str
+    #: One line each; where the default comes from.
     description: str
     source: str
-    default: Value | None
-    unit: str
-    example: str
-    limits: str
-    choices: tuple[str, ...]
-    length: int = 0
-    required: bool = False
+    default: Value | None  #: Default value (SI), or None where it depends on other keys.
+    unit: str  #: Unit in which the value is shown; empty for keys without one.
+    example: str  #: A value as a person writes it, without quotes.
+    limits: str  #: Bounds as a person writes them, such as ``> 0``.
+    choices: tuple[str, ...]  #: Allowed names; empty for other kinds.
+    length: int = 0  #: How many values it holds; 0 for one, or for any number.
+    required: bool = False  #: Whether it must be given.
+    #: Whether it is a root mean square height, for which other measures are understood.
     profile: bool = False
+    #: The limits as numbers (SI), each after its name: ``gt``, ``ge``, ``lt`` or ``le``.
     bounds: tuple[tuple[str, float], ...] = ()
 
     def at(self, path: str) -> Key:

@@ -6,6 +6,7 @@ What pint makes of each is the same; a test compares them all.
 import re
 from typing import Final
 
+#: Sizes in base units, as decimals, by the base unit and then by the unit.
 SIZES: Final = {
     "1 / kelvin": {"1/K": "1"},
     "1 / meter ** 2": {"1/m^2": "1", "1/mm^2": "1E+6", "1/um^2": "1E+12"},
@@ -49,10 +50,8 @@ SIZES: Final = {
     "dimensionless": {"percent": "0.01"},
     "second / meter": {"s/m": "1"},
 }
-"""Sizes in base units, as decimals, by the base unit and then by the unit."""
+#: Names in these units.
 EVERYDAY: Final = frozenset(
     name for units in SIZES.values() for unit in units for name in re.findall("[A-Za-z]+", unit)
 )
-"""Names in these units."""
-ZEROS: Final = {"degC": "273.15"}
-"""Origins of units that do not count from zero, in base units."""
+ZEROS: Final = {"degC": "273.15"}  #: Origins of units that do not count from zero, in base units.

@@ -20,30 +20,20 @@ from tribodyn.core.quoting import LONGEST, brief, closest, meant
 
 @dataclass(frozen=True)
 class BuiltIn:
-    """A case that can be run by name.
+    """A case that can be run by name."""
 
-    Attributes
-    ----------
-    model
-        Its kind.
-    summary
-        One line for ``tribodyn cases``.
-    given
-        What differs from the defaults of the kind, by dotted path.
-    origins
-        Where these values come from, by dotted path, for those whose key does not say it.
-    """
-
-    model: type[Case]
-    summary: str
+    model: type[Case]  #: Its kind.
+    summary: str  #: One line for ``tribodyn cases``.
+    #: What differs from the defaults of the kind, by dotted path.
     given: Mapping[str, object] = field(default_factory=dict)
+    #: Where these values come from, by dotted path, for those whose key does not say it.
     origins: Mapping[str, str] = field(default_factory=dict)
 
 
-_FILE: Final = ".toml"
-"""Ending of the name of a case file."""
+_FILE: Final = ".toml"  #: Ending of the name of a case file.
 _MOST_BASES: Final = 8
 _LONGEST_LINE: Final = 200
+#: A line whose value is a quantity without quotes, a number with a decimal comma, or a word.
 _BARE: Final = re.compile(
     r"\s*([A-Za-z0-9_.-]+)\s*=\s*"
     r"([+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?\s*[A-Za-zµμ°%][^\s\"'#=]*(?: [^\s\"'#=]+)*"
@@ -51,18 +41,16 @@ _BARE: Final = re.compile(
     r"|(?!(?:true|false|inf|nan)\b)[A-Za-z][A-Za-z0-9_./-]*)\s*(?:#.*)?",
     re.ASCII,
 )
-"""A line whose value is a quantity without quotes, a number with a decimal comma, or a word."""
+#: A backslash in double quotes that begins no sign of TOML, or one by its number, as paths seem to.
 _BACKSLASH: Final = re.compile(r"\"[^\"]*\\(?![btnfr\"\\])")
-"""A backslash in double quotes that begins no sign of TOML, or one by its number, as paths seem to."""
 _OPEN: Final = re.compile(r"\s*[A-Za-z0-9_.-]+\s*=\s*\"[^\"]+")
 _TABLE: Final = re.compile(r"\s*\[\s*([A-Za-z0-9_.\"' -]+?)\s*\]\s*(?:#|$)")
 _KEY: Final = re.compile(r"\s*([A-Za-z0-9_.\"' -]+?)\s*=")
 _PLACE: Final = re.compile(r"\(at line ([0-9]+), column [0-9]+\)$")
+#: Beginnings of what the parser says of a key or table that stands twice.
 _TWICE: Final = ("Cannot overwrite", "Cannot declare", "Cannot mutate")
-"""Beginnings of what the parser says of a key or table that stands twice."""
 
-Kinds = Mapping[str, type[Case]]
-"""Case models by what stands under ``case =`` in a file."""
+Kinds = Mapping[str, type[Case]]  #: Case models by what stands under ``case =`` in a file.
 
 
 def read_case(
@@ -128,21 +116,12 @@ def parse(
 
 @dataclass(frozen=True)
 class Known:
-    """Allowed values of the key ``case`` of a file.
+    """Allowed values of the key ``case`` of a file."""
 
-    Attributes
-    ----------
-    kinds
-        Kinds of cases.
-    built_in
-        Cases by name.
-    files
-        Files that began with one another, the first one first; empty where no file may be named, because the
-        text comes from elsewhere.
-    """
-
-    kinds: Kinds
-    built_in: Mapping[str, BuiltIn]
+    kinds: Kinds  #: Kinds of cases.
+    built_in: Mapping[str, BuiltIn]  #: Cases by name.
+    #: Files that began with one another, the first one first; empty where no file may be named, because the
+    #: text comes from elsewhere.
     begun_from: tuple[str, ...] = ()
 
     @property
@@ -247,6 +226,7 @@ def _decoded(content: bytes, source: str) -> str:
     return text
 
 
+#: Kinds of files of other programs, by the endings of their names.
 _PROGRAMS: Final = {
     "a robot description (URDF)": (".urdf", ".xacro"),
     "a MuJoCo model (MJCF)": (".mjcf",),
@@ -274,18 +254,17 @@ _PROGRAMS: Final = {
     "a result of tribodyn or another NetCDF file": (".nc", ".h5"),
     "a JSON or YAML file": (".json", ".yaml", ".yml"),
 }
-"""Kinds of files of other programs, by the endings of their names."""
+#: Kinds of XML files by their first element.
 _ROOTS: Final = {
     "robot": "a robot description (URDF)",
     "mujoco": "a MuJoCo model (MJCF)",
     "sdf": "a Gazebo model (SDF)",
 }
-"""Kinds of XML files by their first element."""
 
 
 _LONGEST_PROLOGUE: Final = 2000
+#: The first element of an XML file, behind declarations and comments.
 _XML: Final = re.compile(r"\s*<(?>[?!][^>]*>[^<>]*<)*\s*([A-Za-z]\w*)?")
-"""The first element of an XML file, behind declarations and comments."""
 
 
 def _other_program(source: str, text: str = "") -> str:

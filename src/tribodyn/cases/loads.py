@@ -26,8 +26,8 @@ _CANCELLED: Final = 1.0e-9
 class BodyLoad(NamedGroup):
     """A force and a moment on a body."""
 
+    #: Quantity of a table over the speed that a force or a moment opposes.
     SPEED_OF: ClassVar = {"force": "velocities", "moment": "speeds"}
-    """Quantity of a table over the speed that a force or a moment opposes."""
 
     force: ForceMap | None = None
     moment: TorqueMap | None = None
@@ -138,42 +138,29 @@ class ShaftLoad(BodyLoad):
         return tuple(-share for share in found) if key == "moment_y" else found
 
 
+#: Takes arrays of times [s] or angles [rad] by their names and returns as many values, SI units.
 OwnFunction = Callable[..., Any]
-"""Takes arrays of times [s] or angles [rad] by their names and returns as many values, SI units."""
 
 _FIRST: Final = 33
-_MOST: Final = {1: 4097, 2: 193}
-"""Rows of the first trial, and at most over each of one or two arguments."""
+_MOST: Final = {1: 4097, 2: 193}  #: Rows of the first trial, and at most over each of one or two arguments.
+#: Of the largest value: what the curve or surface may miss half way between rows.
 _CLOSE: Final = {1: 1.0e-6, 2: 1.0e-5}
-"""Of the largest value: what the curve or surface may miss half way between rows."""
 
 
 @dataclass(frozen=True)
 class Doors:
-    """Keys of a kind of case that take functions.
+    """Keys of a kind of case that take functions."""
 
-    Attributes
-    ----------
-    drive
-        Table that a drive fills, such as ``drive.angle``, and its unit; None where there is not just one.
-    loads
-        Tables that loads fill, by the names of loads, and their units.
-    overridden
-        Keys that a load of that name takes the place of, with their value then.
-    arguments
-        Names that arguments may have, with the key of what they stand for and its range in a case [s, rad].
-    beside
-        Keys of the table of the load that go with an argument.
-    around
-        Arguments that are angles over one turn, after which a function repeats.
-    """
-
+    #: Table that a drive fills, such as ``drive.angle``, and its unit; None where there is not just one.
     drive: tuple[str, str] | None
-    loads: Mapping[str, tuple[str, str]]
+    loads: Mapping[str, tuple[str, str]]  #: Tables that loads fill, by the names of loads, and their units.
+    #: Keys that a load of that name takes the place of, with their value then.
     overridden: Mapping[str, tuple[str, str]]
+    #: Names that arguments may have, with the key of what they stand for and its range in a case [s, rad].
     arguments: Mapping[str, tuple[str, tuple[float, float]]]
+    #: Keys of the table of the load that go with an argument.
     beside: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    around: tuple[str, ...] = ()
+    around: tuple[str, ...] = ()  #: Arguments that are angles over one turn, after which a function repeats.
 
 
 @runtime_checkable

@@ -17,49 +17,38 @@ from tribodyn.cases.keys import Key, Value
 from tribodyn.cases.units import from_si, to_si
 
 MATERIAL: Final = "material"
+#: Properties that a surface takes, with the units they are shown in; the trunnion has no hardness.
 OF_SURFACE: Final = {
     "young_modulus": "GPa",
     "poisson_ratio": "",
     "hardness": "MPa",
     "thermal_expansion": "1/K",
 }
-"""Properties that a surface takes, with the units they are shown in; the trunnion has no hardness."""
+#: Properties of sliding against steel: unit, and keys, if a case has them, that take those of the bushing.
 OF_PAIR: Final = {
     "friction_coefficient": ("", ("joint.friction_coefficient", "friction_coefficient")),
     "specific_wear_rate": ("m^2/N", ("wear.specific_wear_rate",)),
     "wear_scatter": ("", ()),
 }
-"""Properties of sliding against steel: unit, and keys, if a case has them, that take those of the bushing."""
 SURFACES: Final = ("trunnion", "bushing")
 _UNITS: Final = OF_SURFACE | {name: unit for name, (unit, _) in OF_PAIR.items()}
 _WEAR_RATE: Final = "specific_wear_rate"
 _SCATTER: Final = "wear_scatter"
+#: Whose range of wear rates and whose scatter hold for a liner without a name or without data of its own.
 _UNNAMED: Final = "ptfe-liner"
-"""Whose range of wear rates and whose scatter hold for a liner without a name or without data of its own."""
 _ROOM: Final = 293.15
-_FAR: Final = 50.0
-"""Distance [K] from the temperatures of a property from which on it is reported."""
+_FAR: Final = 50.0  #: Distance [K] from the temperatures of a property from which on it is reported.
 
 
 @dataclass(frozen=True)
 class Property:
-    """One property of a material.
+    """One property of a material."""
 
-    Attributes
-    ----------
-    values
-        One, or as many as there are temperatures; SI units.
-    temperatures
-        At which they hold [K].
-    spread
-        Ends of the range that the value is the middle of; SI units; None for a single value.
-    source, validity
-        Where it stands, and what it holds for.
-    """
-
-    values: tuple[float, ...]
-    temperatures: tuple[float, ...]
+    values: tuple[float, ...]  #: One, or as many as there are temperatures; SI units.
+    temperatures: tuple[float, ...]  #: At which they hold [K].
+    #: Ends of the range that the value is the middle of; SI units; None for a single value.
     spread: tuple[float, float] | None
+    #: Where it stands, and what it holds for.
     source: str
     validity: str
 
@@ -78,19 +67,12 @@ class Property:
 
 @dataclass(frozen=True)
 class Material:
-    """A material of the library.
+    """A material of the library."""
 
-    Attributes
-    ----------
-    name, title
-        What a case calls it, and what it is.
-    properties
-        By the names of keys.
-    """
-
+    #: What a case calls it, and what it is.
     name: str
     title: str
-    properties: Mapping[str, Property]
+    properties: Mapping[str, Property]  #: By the names of keys.
 
     def __getattr__(self, name: str) -> float:
         """Return the value of a property at room temperature [SI]."""
@@ -182,8 +164,7 @@ def _library() -> dict[str, Material]:
     }
 
 
-MATERIALS: Final[Mapping[str, Material]] = _library()
-"""Every material by its name."""
+MATERIALS: Final[Mapping[str, Material]] = _library()  #: Every material by its name.
 
 
 def resolve(given: Mapping[str, Value], keys: Mapping[str, Key], prefix: str = "") -> dict[str, Value]:

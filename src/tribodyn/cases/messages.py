@@ -18,11 +18,9 @@ from tribodyn.core.quoting import closest
 from tribodyn.core.synonyms import OF_DIAMETERS, meanings
 
 _ALL_KEYS: Final = "`tribodyn show` lists all keys"
-_LONGEST: Final = 200
-"""Characters of a path that may be one that is misspelled."""
+_LONGEST: Final = 200  #: Characters of a path that may be one that is misspelled.
 _MOST_NEAR: Final = 3
-CROSS_CHECK: Final = "cross_check"
-"""Type of what pydantic receives from a table whose own path nobody knew."""
+CROSS_CHECK: Final = "cross_check"  #: Type of what pydantic receives from a table whose own path nobody knew.
 
 
 def unknown(
@@ -200,21 +198,11 @@ class Disagreement(InputError):
 
 @dataclass(frozen=True)
 class Asked:
-    """Values from which a case is built.
+    """Values from which a case is built."""
 
-    Attributes
-    ----------
-    keys
-        All keys that there are.
-    entries
-        What was given, by dotted path.
-    source
-        Where the rest comes from.
-    """
-
-    keys: Mapping[str, Key]
-    entries: Mapping[str, Entry]
-    source: str
+    keys: Mapping[str, Key]  #: All keys that there are.
+    entries: Mapping[str, Entry]  #: What was given, by dotted path.
+    source: str  #: Where the rest comes from.
 
 
 def problems(error: ValidationError, asked: Asked) -> list[InputError]:

@@ -21,8 +21,7 @@ from tribodyn.cases.units import (
 from tribodyn.core.errors import Faults, InputError
 
 TABLE: Final = "parameters"
-MOST: Final = 1000
-"""Parameters of a case, at most."""
+MOST: Final = 1000  #: Parameters of a case, at most.
 _NUMBERS: Final = frozenset({"quantity", "number", "count"})
 _NOT_FINITE: Final = {"nan", "inf", "infinity"}
 _RESERVED: Final = frozenset({"at", *AMPLITUDES, *FUNCTIONS, *CONSTANTS, *EVERYDAY})
@@ -30,21 +29,11 @@ _RESERVED: Final = frozenset({"at", *AMPLITUDES, *FUNCTIONS, *CONSTANTS, *EVERYD
 
 @dataclass(frozen=True)
 class Scope:
-    """The parameters of a case.
+    """The parameters of a case."""
 
-    Attributes
-    ----------
-    quantities
-        Their values, by their names.
-    units
-        In which they are shown.
-    refused
-        Names of those that have no value.
-    """
-
-    quantities: Mapping[str, Dimensioned] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
-    refused: Collection[str] = ()
+    quantities: Mapping[str, Dimensioned] = field(default_factory=dict)  #: Their values, by their names.
+    units: Mapping[str, str] = field(default_factory=dict)  #: In which they are shown.
+    refused: Collection[str] = ()  #: Names of those that have no value.
 
     def keys(self, declared: Mapping[str, Key]) -> dict[str, Key]:
         """Return the keys of the parameters, each with the unit of its value."""

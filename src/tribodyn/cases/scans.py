@@ -31,38 +31,29 @@ _ROUGHNESS: Final = ("surfaces.trunnion.roughness", "surfaces.bushing.roughness"
 _OPTIONS: Final = ("level", "filter", "short_cutoff", "long_cutoff")
 _OPTION_PATHS: Final = tuple(f"asperities.{name}" for name in _OPTIONS)
 ORIGIN: Final = "asperities.origin"
+#: Keys that a scan gives values to.
 FOLLOWING: Final = (*_ROUGHNESS, "asperities.density", "asperities.radius")
-"""Keys that a scan gives values to."""
 
+#: Pairs of keys of which only one may be given.
 ALTERNATIVES: Final = (
     *((COMBINED, path) for path in (*EACH, *FOLLOWING, ORIGIN)),
     *((scan, path) for scan in EACH for path in (*FOLLOWING, ORIGIN)),
 )
-"""Pairs of keys of which only one may be given."""
 
+#: Reads a length with its unit as metres, for :func:`tribodyn.surfaces.read_scan`.
 length: Final = partial(to_si, like="m")
-"""Reads a length with its unit as metres, for :func:`tribodyn.surfaces.read_scan`."""
 _LONGEST_ORIGIN: Final = 200
 
 
 @dataclass(frozen=True)
 class Equivalent:
-    """Roughness and asperities of one rough surface or two, with their origin.
+    """Roughness and asperities of one rough surface or two, with their origin."""
 
-    Attributes
-    ----------
-    roughness
-        σ of trunnion and bushing [m].
-    density, radius
-        Asperities of the equivalent rough surface [1/m², m].
-    origin
-        Files and treatment, on one line.
-    """
-
-    roughness: tuple[float, float]
+    roughness: tuple[float, float]  #: σ of trunnion and bushing [m].
+    #: Asperities of the equivalent rough surface [1/m², m].
     density: float
     radius: float
-    origin: str
+    origin: str  #: Files and treatment, on one line.
 
     def values(self) -> dict[str, str]:
         """Return the values of keys as a case file writes them; they read back to the bit."""
@@ -206,12 +197,11 @@ def _in_words(treatment: Treatment) -> str:
     return f"{treatment.level} level, {kept}"
 
 
-MESH: Final = "mesh"
-"""Name of a key that names a file; beside it stand those below."""
+MESH: Final = "mesh"  #: Name of a key that names a file; beside it stand those below.
 UNIT: Final = "mesh_unit"
 FACETS: Final = "facets"
+#: Triangles that a case holds, at most: its text is read whole. Their longest edge makes finer nodes.
 MOST: Final = 4000
-"""Triangles that a case holds, at most: its text is read whole. Their longest edge makes finer nodes."""
 LARGEST: Final = 5_000_000
 
 

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 _FORMULA: Final = ("value", "amplitude", "swing")
 _PULSE: Final = "pulse"
 _FEWEST_SMOOTH: Final = 5
-_KEPT: Final = 8
-"""Curves through tables that are kept."""
+_KEPT: Final = 8  #: Curves through tables that are kept.
 _ROUNDING: Final = 1.0e-14
 _TINY: Final = 1.0e-300
 _TURN: Final = 2.0 * math.pi * (1.0 - 1.0e-9)
@@ -312,12 +311,12 @@ class _Signal(_Timed):
         return for_each_cycle(self.signal(), self.knots[-1], duration, rise)
 
 
+#: Quantities over which a map may be given: time and another one, or a coordinate and its rate.
 _MAPPED: Final = (
     *((TIMES, other) for other in KNOTS if other != TIMES),
     ("angles", "speeds"),
     ("positions", "velocities"),
 )
-"""Quantities over which a map may be given: time and another one, or a coordinate and its rate."""
 
 
 class _Mapped(_Signal):

@@ -19,13 +19,13 @@ from tribodyn.cases.keys import ANY_NAME, VALUE, Key, Value, groups_of, keys_of
 from tribodyn.cases.parameters import keys_with_units
 from tribodyn.cases.units import AXES, from_si
 
+#: Message for an attempt to change a case.
 FROZEN: Final = 'a case is frozen; replace({"joint.clearance": "30 um"}) returns a changed copy'
-"""Message for an attempt to change a case."""
 LONGEST_NAME: Final = 40
 ALLOWED_NAME: Final = f"a name of letters without accents, digits, - and _, at most {LONGEST_NAME} of them"
 _QUOTED: Final = re.compile(r'"((?:[^"\\]|\\.)*)"')
+#: Names that users choose, with the numbers of a copy of a pattern and of a node of an elastic body.
 _PLAIN: Final = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?(:\d+)?")
-"""Names that users choose, with the numbers of a copy of a pattern and of a node of an elastic body."""
 _NAME: Final = re.compile(rf"(?=[A-Za-z0-9_-]{{1,{LONGEST_NAME}}}(\[|:|$)){_PLAIN.pattern}")
 
 

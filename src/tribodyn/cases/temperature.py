@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 PARTS: Final = ("trunnion", "bushing", "casing")
 OVER_TIME: Final = "temperature.over_time"
+#: Properties of a table over the temperature, and the key that takes the value at that of the bushing.
 _FOLLOWING: Final = {
     "young_modulus": "surfaces.bushing.young_modulus",
     "hardness": "surfaces.bushing.hardness",
     "friction_coefficient": "joint.friction_coefficient",
     "specific_wear_rate": "wear.specific_wear_rate",
 }
-"""Properties of a table over the temperature, and the key that takes the value at that of the bushing."""
 
 
 class InCycles(Protocol):

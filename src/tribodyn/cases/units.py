@@ -25,8 +25,8 @@ _FACTOR: Final = r"(?:1|[A-Za-z][A-Za-z_]*(?:(?:\^|\*\*)-?[1-9](?![0-9]))?)"
 _PRODUCT: Final = rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*"
 _PART: Final = rf"(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\))"
 _UNIT: Final = rf"{_PART}(?:\s*[*/]\s*{_PART}|\s+{_PART})*"
+#: A power without its sign, as in mm3.
 _BARE_POWER: Final = re.compile(r"(?<=[A-Za-z])([2-4])(?![0-9A-Za-z_])")
-"""A power without its sign, as in mm3."""
 _QUANTITY_PATTERN: Final = re.compile(rf"({_NUMBER})\s*(.*)", re.ASCII | re.DOTALL)
 _UNIT_PATTERN: Final = re.compile(_UNIT, re.ASCII)
 _NOT_FINITE: Final = re.compile(r"[+-]?(nan|inf|infinity)\b.*", re.IGNORECASE | re.DOTALL)
@@ -34,6 +34,7 @@ _SPELLINGS: Final = str.maketrans(
     {"µ": "u", "μ": "u", "°": "deg", "·": "*", "⋅": "*", "−": "-", "²": "^2", "³": "^3", "\u00a0": " "}
 )
 
+#: The SI units that tribodyn works in, and what each of them measures.
 _DIMENSIONS: Final = {
     "m": "length",
     "m^2": "area",
@@ -65,17 +66,16 @@ _DIMENSIONS: Final = {
     "1/K": "thermal expansion",
     "W/(m K)": "thermal conductivity",
 }
-"""The SI units that tribodyn works in, and what each of them measures."""
 SI_UNITS: Final = tuple(_DIMENSIONS)
 
 
+#: No constant: tables for workshops have 4 (firgelliauto.com) to 7.2 (frictioncalculator.com).
 RZ_OVER_RA: Final = 5.6
-"""No constant: tables for workshops have 4 (firgelliauto.com) to 7.2 (frictioncalculator.com)."""
+#: Characters that a number may gain in another unit; with more it is not a round number there.
 _ROUND: Final = 3
-"""Characters that a number may gain in another unit; with more it is not a round number there."""
 _GAUSSIAN: Final = math.sqrt(math.pi / 2.0)
+#: Root mean square roughness over other measures of height, for Gaussian heights: σ = √(π/2) Ra.
 AMPLITUDES: Final = {"Rq": 1.0, "Sq": 1.0, "Ra": _GAUSSIAN, "Sa": _GAUSSIAN, "Rz": _GAUSSIAN / RZ_OVER_RA}
-"""Root mean square roughness over other measures of height, for Gaussian heights: σ = √(π/2) Ra."""
 
 
 class UnitProblem(ValueError):
@@ -293,8 +293,7 @@ def _split(text: str) -> tuple[Decimal, str]:
 
 
 _SEVERAL: Final = re.compile(r"\s*,\s+[-+.\d]")
-_COMMA: Final = re.compile(r"\d,\d")
-"""Decimal comma of a computation."""
+_COMMA: Final = re.compile(r"\d,\d")  #: Decimal comma of a computation.
 
 
 class _Scale(NamedTuple):
@@ -353,10 +352,8 @@ def _scale(unit: str) -> _Scale:
     return _Scale(size, zero, base)
 
 
-LISTS: Final = frozenset({"vector", "series", "names"})
-"""Kinds of keys that hold several values."""
-AXES: Final = "xyz"
-"""Components of a vector, as dotted paths name them: ``point.x``."""
+LISTS: Final = frozenset({"vector", "series", "names"})  #: Kinds of keys that hold several values.
+AXES: Final = "xyz"  #: Components of a vector, as dotted paths name them: ``point.x``.
 
 
 def elements(value: object, unit: str) -> list[object] | None:

@@ -12,8 +12,7 @@ from tribodyn.core.quoting import as_given
 if TYPE_CHECKING:
     from tribodyn.cases import Case
 
-ANALYSES: Final = ("static", "kinematic", "vibrations")
-"""Analyses that have an option of their own."""
+ANALYSES: Final = ("static", "kinematic", "vibrations")  #: Analyses that have an option of their own.
 
 
 def add_case_arguments(parser: ArgumentParser, *, required: bool = True) -> None:

@@ -24,18 +24,10 @@ from tribodyn.core.quoting import as_given, on_one_line, without_controls
 
 @dataclass(frozen=True)
 class Console:
-    """Destinations of messages.
+    """Destinations of messages."""
 
-    Attributes
-    ----------
-    quiet
-        Whether nothing but errors and warnings is printed.
-    json
-        Whether stdout belongs to one JSON document.
-    """
-
-    quiet: bool = False
-    json: bool = False
+    quiet: bool = False  #: Whether nothing but errors and warnings is printed.
+    json: bool = False  #: Whether stdout belongs to one JSON document.
 
     @classmethod
     def of(cls, args: Namespace) -> Console:
@@ -120,18 +112,10 @@ _PARTS: Final = 10
 
 @dataclass(frozen=True)
 class Measure:
-    """Counted quantity.
+    """Counted quantity."""
 
-    Attributes
-    ----------
-    bar
-        How far the work is, for a bar (fields ``n`` and ``total``).
-    line
-        The same for a line (fields ``reached`` and ``total``).
-    """
-
-    bar: str
-    line: str
+    bar: str  #: How far the work is, for a bar (fields ``n`` and ``total``).
+    line: str  #: The same for a line (fields ``reached`` and ``total``).
 
 
 SIMULATED: Final = Measure("{n:.2f} of {total:.2f} s simulated", "{reached:.4g} of {total:.4g} s simulated")

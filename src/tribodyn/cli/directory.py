@@ -12,8 +12,7 @@ from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
-CHECKPOINT: Final = "checkpoint.npz"
-"""Folder of a wear campaign until its result is written."""
+CHECKPOINT: Final = "checkpoint.npz"  #: Folder of a wear campaign until its result is written.
 RESULT: Final = "result.nc"
 FILES: Final = (RESULT, "summary.json", "case.toml", "report.html", CHECKPOINT)
 FIGURES: Final = "figures"

@@ -62,22 +62,13 @@ class Interruption:
 
 @dataclass
 class _Met:
-    """Handling of a signal.
+    """Handling of a signal."""
 
-    Attributes
-    ----------
-    listener
-        Whom to leave word with.
-    last_words, status
-        Message and exit status where the process ends.
-    tidying
-        What is done before.
-    """
-
-    listener: Interruption | None = None
+    listener: Interruption | None = None  #: Whom to leave word with.
+    #: Message and exit status where the process ends.
     last_words: str = "aborted; nothing was saved"
     status: int = _FAILED
-    tidying: list[Callable[[], None]] = field(default_factory=list)
+    tidying: list[Callable[[], None]] = field(default_factory=list)  #: What is done before.
 
 
 _met = _Met()

@@ -23,8 +23,7 @@ class Command(Protocol):
     """A module that is one sub-command."""
 
     HELP: str
-    EXAMPLE: str
-    """End of its help."""
+    EXAMPLE: str  #: End of its help.
 
     def add_arguments(self, parser: argparse.ArgumentParser, /) -> None:
         """Declare the arguments after the name of the command."""
@@ -51,6 +50,7 @@ class _Modules(Mapping[str, Command]):
         return len(self._names)
 
 
+#: All sub-commands: a new one is a module in ``commands`` and a name here.
 COMMANDS: Final = _Modules(
     *(
         "run",
@@ -71,7 +71,6 @@ COMMANDS: Final = _Modules(
     "bounce",
     "completion",
 )
-"""All sub-commands: a new one is a module in ``commands`` and a name here."""
 
 _EPILOG: Final = """\
 examples:
@@ -84,10 +83,9 @@ exit status: 0 done; 1 the run failed, what was computed is saved; 2 bad input, 
 """
 
 
+#: Likeness of a command to one that was probably meant, at least: "rum" for "run", but no other verb.
 _NEAR_COMMAND: Final = 0.65
-"""Likeness of a command to one that was probably meant, at least: "rum" for "run", but no other verb."""
-_NEAR: Final = 0.7
-"""Likeness of an option to one that was probably meant, at least."""
+_NEAR: Final = 0.7  #: Likeness of an option to one that was probably meant, at least.
 
 
 class _Parser(argparse.ArgumentParser):

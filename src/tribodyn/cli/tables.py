@@ -119,8 +119,7 @@ _COLUMN: Final = 13
 _LONGEST: Final = 22
 _MOST_ROWS: Final = 40
 _MOST_WARNINGS: Final = 5
-LEFT_OUT: Final = ("Trust", "Effort")
-"""Groups of key results that say nothing about the machine."""
+LEFT_OUT: Final = ("Trust", "Effort")  #: Groups of key results that say nothing about the machine.
 
 
 def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iterator[str]:

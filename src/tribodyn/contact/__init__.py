@@ -19,6 +19,7 @@ from tribodyn.contact.table import tabulate
 from tribodyn.contact.user_law import OwnLaw, check_law, law_of_user
 from tribodyn.core.errors import InputError
 
+#: Every law, one line each: its file and its class.
 _MEMBERS = (
     "kogut_etsion:KogutEtsion",
     "rsdc:RSDC",
@@ -28,7 +29,6 @@ _MEMBERS = (
     "jackson_green:JacksonGreen",
     "linear:LinearContact",
 )
-"""Every law, one line each: its file and its class."""
 
 
 def _member(line: str) -> type[ContactLaw]:
@@ -60,10 +60,9 @@ def _of_packages() -> Iterator[type[ContactLaw]]:
         yield kind
 
 
-OURS: Final = tuple(map(_member, _MEMBERS))
-"""Laws of this package: two whose fields are equal are equal."""
+OURS: Final = tuple(map(_member, _MEMBERS))  #: Laws of this package: two whose fields are equal are equal.
+#: All contact laws by name: our own, and those of installed packages.
 LAWS: dict[str, type[ContactLaw]] = {kind.name: kind for kind in (*OURS, *_of_packages())}
-"""All contact laws by name: our own, and those of installed packages."""
 
 
 class HasSurfacePair(Protocol):

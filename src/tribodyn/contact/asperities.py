@@ -20,11 +20,11 @@ from tribodyn.contact.surface_pair import SurfacePair
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
+#: Origins of h.
 SEPARATIONS: Final = {
     "asperities": "from the mean of the asperity heights, which spread by sigma",
     "surface": "from the mean of the surface heights; the asperities spread by less",
 }
-"""Origins of h."""
 
 
 class Regime(NamedTuple):

@@ -19,27 +19,16 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
-_LONGEST: Final = 1.0e9
-"""Time in units of σ/v₀ after which a plate is taken to stick."""
+_LONGEST: Final = 1.0e9  #: Time in units of σ/v₀ after which a plate is taken to stick.
 
 
 @dataclass(frozen=True)
 class Bounce:
-    """Result of one bounce.
+    """Result of one bounce."""
 
-    Attributes
-    ----------
-    restitution
-        Speed on leaving the onset over that on arriving [1]; 0 if the plate sticks.
-    deepest
-        Smallest separation h* [1].
-    peak_pressure
-        Largest contact pressure P_c [Pa].
-    """
-
-    restitution: float
-    deepest: float
-    peak_pressure: float
+    restitution: float  #: Speed on leaving the onset over that on arriving [1]; 0 if the plate sticks.
+    deepest: float  #: Smallest separation h* [1].
+    peak_pressure: float  #: Largest contact pressure P_c [Pa].
 
 
 def bounce(

@@ -13,34 +13,19 @@ from tribodyn.contact.liner import lined
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.joints.surface.bulk import ARC, KAPPA, ROUNDING, WIDEST
 
-LEVELS: Final = 16
-"""Intervals between levels, equal in the square root of the compliance."""
-DEEP: Final = 48.0
-"""Depth of the tables of levels below a gap of zero, in σ; below it they go on linearly."""
-STRIDE: Final = 8
-"""Nodes of the contact table to one of a level."""
+LEVELS: Final = 16  #: Intervals between levels, equal in the square root of the compliance.
+DEEP: Final = 48.0  #: Depth of the tables of levels below a gap of zero, in σ; below it they go on linearly.
+STRIDE: Final = 8  #: Nodes of the contact table to one of a level.
 
 
 @dataclass(frozen=True)
 class Bulk:
-    """Two elastic bodies under a contact law.
+    """Two elastic bodies under a contact law."""
 
-    Attributes
-    ----------
-    table
-        The contact law, tabulated over the separation.
-    roughness
-        Combined rms roughness σ [m].
-    modulus
-        Composite modulus E of both bodies [Pa].
-    size
-        Largest radius of a bore, or half width of a face, under this law [m].
-    """
-
-    table: ContactTable
-    roughness: float
-    modulus: float
-    size: float
+    table: ContactTable  #: The contact law, tabulated over the separation.
+    roughness: float  #: Combined rms roughness σ [m].
+    modulus: float  #: Composite modulus E of both bodies [Pa].
+    size: float  #: Largest radius of a bore, or half width of a face, under this law [m].
 
     def compliance(self, half_width: float) -> float:
         """Return depth over pressure of a long contact, from half its width [m], in [m/Pa]."""

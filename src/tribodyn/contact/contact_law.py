@@ -17,8 +17,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.splines import gauss_legendre
 
 _POINTS: Final = 48
+#: Heights whose density is below exp(-40) = 4e-18 of the largest one in the interval are left out.
 _DECAY: Final = 40.0
-"""Heights whose density is below exp(-40) = 4e-18 of the largest one in the interval are left out."""
 
 
 def density(z: FloatArray) -> FloatArray:
@@ -73,14 +73,14 @@ def _nodes(h_star: FloatArray, lower: float, upper: float) -> tuple[FloatArray, 
     return h, t_first + half * (1.0 + gauss_legendre(_POINTS)[0]), half
 
 
+#: Default peak pressure of the impact that ``calibrated`` and ``kelvin-voigt`` are made for [Pa].
 DESIGN_PRESSURE: Final = 50.0e6
-"""Default peak pressure of the impact that ``calibrated`` and ``kelvin-voigt`` are made for [Pa]."""
 
+#: δ̇₋ of all points where damping is in proportion to the speed [m/s]: none is faster.
 MEMORYLESS: Final = 1.0e3
-"""δ̇₋ of all points where damping is in proportion to the speed [m/s]: none is faster."""
 
+#: Separations h* between which the peak pressure of that impact must lie [1].
 DESIGN_RANGE: Final = (-4.0, 4.0)
-"""Separations h* between which the peak pressure of that impact must lie [1]."""
 
 
 @dataclass(frozen=True)
@@ -109,13 +109,11 @@ class ContactLaw(ABC):
     """
 
     name: ClassVar[str]
-    title: ClassVar[str]
-    """One line for people."""
+    title: ClassVar[str]  #: One line for people.
     source: ClassVar[str]
-    validity: ClassVar[str]
-    """Range in which the law holds, one sentence."""
+    validity: ClassVar[str]  #: Range in which the law holds, one sentence.
+    #: Whether the law has a restitution of its own when none is asked for.
     knows_restitution: ClassVar[bool] = False
-    """Whether the law has a restitution of its own when none is asked for."""
 
     pair: SurfacePair
     damping_factor: str = "none"

@@ -16,22 +16,13 @@ from tribodyn.core.arrays import FloatArray
 
 @dataclass(frozen=True)
 class DampingFactor:
-    """A way from restitution to damping.
+    """A way from restitution to damping."""
 
-    Attributes
-    ----------
-    ratio
-        Function e → a of arrays, in the damping a·K δⁿ δ̇/δ̇₋; for a dashpot e → 2ζ, in 2ζ·F_max δ̇/δ̇₋ with
-        the largest force F_max that the undamped impact would reach.
-    source
-        Where it was published.
-    dashpot
-        Whether it is the constant dashpot of Kelvin and Voigt.
-    """
-
+    #: Function e → a of arrays, in the damping a·K δⁿ δ̇/δ̇₋; for a dashpot e → 2ζ, in 2ζ·F_max δ̇/δ̇₋ with
+    #: the largest force F_max that the undamped impact would reach.
     ratio: Callable[[FloatArray], FloatArray]
-    source: str
-    dashpot: bool = False
+    source: str  #: Where it was published.
+    dashpot: bool = False  #: Whether it is the constant dashpot of Kelvin and Voigt.
 
     def __call__(self, restitution: FloatArray) -> FloatArray:
         """Return the ratio of damping to stiffness [1], shape of ``restitution`` [1], 0 < e ≤ 1."""

@@ -16,18 +16,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Conductor:
-    """Thermal properties of a body.
+    """Thermal properties of a body."""
 
-    Attributes
-    ----------
-    conductivity
-        k [W/(m K)].
-    diffusivity
-        κ [m²/s].
-    """
-
-    conductivity: float
-    diffusivity: float
+    conductivity: float  #: k [W/(m K)].
+    diffusivity: float  #: κ [m²/s].
 
 
 def resistance(body: Conductor, radius: float, speed: float) -> float:

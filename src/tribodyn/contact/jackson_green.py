@@ -23,10 +23,8 @@ from tribodyn.contact.asperities import AsperityLaw, Regime
 from tribodyn.contact.contact_law import height_integral
 from tribodyn.core.arrays import FloatArray
 
-ELASTIC: Final = 1.9
-"""Interference over δ_c up to which an asperity is elastic."""
-LARGEST_STRAIN: Final = 0.05
-"""S_y/E beyond which the exponent B grows no more."""
+ELASTIC: Final = 1.9  #: Interference over δ_c up to which an asperity is elastic.
+LARGEST_STRAIN: Final = 0.05  #: S_y/E beyond which the exponent B grows no more.
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from tribodyn.contact.contact_law import ContactLaw, asperity_integral, exceedan
 from tribodyn.contact.parameter import parameter
 from tribodyn.core.arrays import FloatArray
 
-CORNER: Final = 0.1
-"""w, in units of σ; the table of the law has 13 nodes on it."""
+CORNER: Final = 0.1  #: w, in units of σ; the table of the law has 13 nodes on it.
 
 
 @dataclass(frozen=True)

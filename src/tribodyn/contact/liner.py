@@ -29,31 +29,20 @@ from tribodyn.core.remembered import ContactTable
 if TYPE_CHECKING:
     from scipy.interpolate import CubicHermiteSpline
 
+#: Largest range of the gap in a table, in σ: a soft layer sinks by more before asperities end.
 DEEPEST: Final = 256.0
-"""Largest range of the gap in a table, in σ: a soft layer sinks by more before asperities end."""
 _ITERATIONS: Final = 50
 _EXACT: Final = 1.0e-14
-_FEW: Final = 5
-"""Iterations from a neighbouring node that end within 1e-12 σ."""
+_FEW: Final = 5  #: Iterations from a neighbouring node that end within 1e-12 σ.
 
 
 @dataclass(frozen=True)
 class Liner:
-    """A thin elastic layer bonded to a rigid base.
+    """A thin elastic layer bonded to a rigid base."""
 
-    Attributes
-    ----------
-    thickness
-        t [m].
-    young_modulus
-        E [Pa].
-    poisson_ratio
-        ν, below 1/2 [1].
-    """
-
-    thickness: float
-    young_modulus: float
-    poisson_ratio: float
+    thickness: float  #: t [m].
+    young_modulus: float  #: E [Pa].
+    poisson_ratio: float  #: ν, below 1/2 [1].
 
     @property
     def stiffness(self) -> float:

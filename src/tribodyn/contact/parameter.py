@@ -11,24 +11,14 @@ _KEY = "parameter"
 
 @dataclass(frozen=True)
 class Parameter:
-    """Declaration of a law's parameter.
+    """Declaration of a law's parameter."""
 
-    Attributes
-    ----------
-    default
-        In SI units.
-    unit
-        In which case files and tables show it; empty for a number without one.
-    meaning, source
-        One line each; where the default comes from.
-    above, most
-        It is greater than the first and at most the second, in SI units; None for no such limit.
-    """
-
-    default: float
-    unit: str
+    default: float  #: In SI units.
+    unit: str  #: In which case files and tables show it; empty for a number without one.
+    #: One line each; where the default comes from.
     meaning: str
     source: str = "assumed"
+    #: It is greater than the first and at most the second, in SI units; None for no such limit.
     above: float | None = None
     most: float | None = None
 

@@ -12,13 +12,13 @@ from tribodyn.core.remembered import ContactTable
 
 H_FIRST: Final = -4.0
 H_LAST: Final = 8.0
+#: 128 to the unit: a cubic Hermite error below 1e-7 of a Gaussian tail's pressure at h* = 8.
 INTERVALS: Final = 1536
-"""128 to the unit: a cubic Hermite error below 1e-7 of a Gaussian tail's pressure at h* = 8."""
+#: Share of the pressure at h* = 0 below which the tail of a law is left out: looking it up costs time.
 TAIL: Final = 1.0e-11
-"""Share of the pressure at h* = 0 below which the tail of a law is left out: looking it up costs time."""
 
+#: Sixth-order first difference, in units of the step.
 _CENTRAL_DIFFERENCE: Final = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
-"""Sixth-order first difference, in units of the step."""
 
 
 def tabulate(law: ContactLaw, *, onset: float = 4.0, smoothing_width: float = 1.0) -> ContactTable:

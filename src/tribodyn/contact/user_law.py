@@ -10,8 +10,8 @@ from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
+#: User-defined law: a class, or a function that returns the pressure [Pa] at an array of h*.
 OwnLaw: TypeAlias = type[ContactLaw] | Callable[[FloatArray], Any]
-"""User-defined law: a class, or a function that returns the pressure [Pa] at an array of h*."""
 
 _FACTS = ("name", "title", "source", "validity")
 

@@ -7,10 +7,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+#: Numbers of a process, not of a case: addresses of force laws, and the pivots of the last factorisation.
 _OF_PROCESS: Final = ("law", "exchanges")
-"""Numbers of a process, not of a case: addresses of force laws, and the pivots of the last factorisation."""
-_BLOCK: Final = 4_000_000
-"""Size of what is copied at once [B]."""
+_BLOCK: Final = 4_000_000  #: Size of what is copied at once [B].
 
 
 def digest(*values: Any) -> str:

@@ -8,8 +8,7 @@ from typing import Final
 
 from tribodyn.core.quoting import brief
 
-MOST_FAULTS: Final = 20
-"""Number of errors that a user reads at once."""
+MOST_FAULTS: Final = 20  #: Number of errors that a user reads at once.
 
 
 class TribodynError(Exception):
@@ -52,8 +51,8 @@ def below(path: str) -> Iterator[None]:
         raise InputError(error.reason, key=".".join(filter(None, (path, error.key)))) from None
 
 
+#: Number of errors with a suggestion, each of which takes as long as reading a whole case.
 MOST_HINTS: Final = 5
-"""Number of errors with a suggestion, each of which takes as long as reading a whole case."""
 
 
 class InputErrors(InputError):

@@ -14,8 +14,7 @@ from typing import Any, BinaryIO, Final
 _FLAGS: Final = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY")
 )
-ARCHIVES: Final = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
-"""Beginnings of workbooks and documents of offices."""
+ARCHIVES: Final = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  #: Beginnings of workbooks and documents of offices.
 _UNITS: Final = ((10**9, "GB"), (10**6, "MB"), (10**3, "kB"), (1, "bytes"))
 
 
@@ -107,10 +106,9 @@ def _too_large(most: int) -> OSError:
     return OSError(errno.EFBIG, f"the file is larger than {most / size:g} {unit}")
 
 
-SEPARATORS: Final = (";", "\t", ",")
-"""Separators of the fields of a line; the first one that occurs counts."""
+SEPARATORS: Final = (";", "\t", ",")  #: Separators of the fields of a line; the first one that occurs counts.
+#: Beginning of a comment line.
 _COMMENTS: Final = ("#", "%", "//")
-"""Beginning of a comment line."""
 
 
 def is_comment(text: str) -> bool:
@@ -149,12 +147,11 @@ def named(cell: str) -> tuple[str, str | None] | None:
     return name.strip(), None if unit is None else unit.strip()
 
 
+#: Length of a text that is parsed, at most; a case with all its comments has 15,000 characters.
 LARGEST: Final = 1_000_000
-"""Length of a text that is parsed, at most; a case with all its comments has 15,000 characters."""
-DEEPEST: Final = 20
-"""Depth of tables, arrays and dotted keys, each at most; cases are four deep."""
+DEEPEST: Final = 20  #: Depth of tables, arrays and dotted keys, each at most; cases are four deep.
+#: Dots, brackets, commas, equals signs and lines, at most: a table costs up to a kilobyte for each.
 _MOST_MARKS: Final = 100_000
-"""Dots, brackets, commas, equals signs and lines, at most: a table costs up to a kilobyte for each."""
 
 _MARKS: Final = re.compile(
     r'''

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 # The threads of a worker would only take time from the other workers. Without the safe path these processes
 # would import modules from the working directory, where a file may have the name of any module.
 # What a case frees, the next one needs again: returned to the system it costs a page fault for every 4 kB.
+#: Environment variables that the processes need from their beginning.
 ENVIRONMENT: Final = {
     name: "1"
     for name in (
@@ -34,13 +35,11 @@ ENVIRONMENT: Final = {
         "PYTHONSAFEPATH",
     )
 } | {"MALLOC_MMAP_THRESHOLD_": str(32 << 20), "MALLOC_TRIM_THRESHOLD_": str(64 << 20)}
-"""Environment variables that the processes need from their beginning."""
+#: Modules that the server imports: names, for they are of higher layers. The first one ignores settings.
 _MODULES: Final = ("tribodyn.__main__", "tribodyn.studies.template")
-"""Modules that the server imports: names, for they are of higher layers. The first one ignores settings."""
-_CASE: Final = "TRIBODYN_FORK_SERVER_CASE"
-"""Environment variable with what :func:`start` is given, as JSON."""
+_CASE: Final = "TRIBODYN_FORK_SERVER_CASE"  #: Environment variable with what :func:`start` is given, as JSON.
+#: Length that fits into an environment variable of Linux. For a longer case the server prepares nothing.
 _LONGEST: Final = 100_000
-"""Length that fits into an environment variable of Linux. For a longer case the server prepares nothing."""
 
 
 def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = MappingProxyType({})) -> None:

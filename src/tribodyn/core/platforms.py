@@ -19,22 +19,18 @@ if TYPE_CHECKING:
 
 
 # In Python 3.11.0 other users can talk to the server (CVE-2022-42919).
+#: Start method of processes, as :mod:`multiprocessing` calls it; libraries of macOS do not survive a fork.
 METHOD: Final = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
-"""Start method of processes, as :mod:`multiprocessing` calls it; libraries of macOS do not survive a fork."""
-FORKS: Final = sys.platform == "linux"
-"""Whether a process may be forked from one with libraries loaded."""
+FORKS: Final = sys.platform == "linux"  #: Whether a process may be forked from one with libraries loaded.
+#: Whether browsers take every name in ``.localhost`` for this machine; on macOS they ask the system.
 KNOWS_LOCAL_NAMES: Final = sys.platform != "darwin"
-"""Whether browsers take every name in ``.localhost`` for this machine; on macOS they ask the system."""
-HANGUP: Final = () if sys.platform == "win32" else (signal.SIGHUP,)
-"""Signals at the end of a terminal."""
+HANGUP: Final = () if sys.platform == "win32" else (signal.SIGHUP,)  #: Signals at the end of a terminal.
+#: File of Linux with a container's limits: time on all processors together, and its period [µs].
 _QUOTA: Final = Path("/sys/fs/cgroup/cpu.max")
-"""File of Linux with a container's limits: time on all processors together, and its period [µs]."""
-_LOCK: Final = ".lock"
-"""File that is locked where folders cannot be."""
+_LOCK: Final = ".lock"  #: File that is locked where folders cannot be.
+#: Parameter of ``mallopt``: the size from which a block comes from the system and goes back there.
 _MMAP_THRESHOLD: Final = -3
-"""Parameter of ``mallopt``: the size from which a block comes from the system and goes back there."""
-_LARGE: Final = 131_072
-"""The size that glibc begins with [bytes]."""
+_LARGE: Final = 131_072  #: The size that glibc begins with [bytes].
 
 
 def processors() -> int:

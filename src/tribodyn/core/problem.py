@@ -42,41 +42,25 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 
-Floats: TypeAlias = NDArray[np.floating[Any]]
-"""Numbers of any precision."""
+Floats: TypeAlias = NDArray[np.floating[Any]]  #: Numbers of any precision.
 
 
 @dataclass(frozen=True)
 class CompiledFunctions:
-    """Compiled functions of a problem; ``n`` states, all arrays float64 and contiguous.
+    """Compiled functions of a problem; ``n`` states, all arrays float64 and contiguous."""
 
-    Attributes
-    ----------
-    rhs
-        ``rhs(t, y, data, memory, f)`` fills ``f`` (n,) with dy/dt.
-    jac
-        ``jac(t, y, data, memory, f, jacobian)`` fills ``f`` and ``jacobian`` (n, n), or (n_entries,)
-        where the problem has an :class:`LinearSolver`.
-    enter
-        ``enter(t, y, data, memory)`` begins a segment at ``t``.
-    advance
-        ``advance(t_a, t_b, y_b, data, memory)`` adds path integrals over ``[t_a, t_b]``. The values at
-        ``t_a`` were left in ``memory`` by the previous ``advance`` or by ``enter``.
-    accept
-        ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step; it may
-        correct ``y``.
-    observe
-        ``observe(t, y, data, memory, row)`` fills ``row`` (n_observed,).
-    picture
-        ``picture(t, y, data, memory, fields)`` fills ``fields`` (n_fields, n_z, n_theta).
-    """
-
-    rhs: Callable[..., None]
+    rhs: Callable[..., None]  #: ``rhs(t, y, data, memory, f)`` fills ``f`` (n,) with dy/dt.
+    #: ``jac(t, y, data, memory, f, jacobian)`` fills ``f`` and ``jacobian`` (n, n), or (n_entries,) where the
+    #: problem has an :class:`LinearSolver`.
     jac: Callable[..., None]
-    enter: Callable[..., None]
+    enter: Callable[..., None]  #: ``enter(t, y, data, memory)`` begins a segment at ``t``.
+    #: ``advance(t_a, t_b, y_b, data, memory)`` adds path integrals over ``[t_a, t_b]``. The values at ``t_a``
+    #: were left in ``memory`` by the previous ``advance`` or by ``enter``.
     advance: Callable[..., None]
+    #: ``accept(t, y, data, memory)`` updates the memory at the end of an accepted step; it may correct ``y``.
     accept: Callable[..., None]
-    observe: Callable[..., None]
+    observe: Callable[..., None]  #: ``observe(t, y, data, memory, row)`` fills ``row`` (n_observed,).
+    #: ``picture(t, y, data, memory, fields)`` fills ``fields`` (n_fields, n_z, n_theta).
     picture: Callable[..., None]
 
 
@@ -85,134 +69,80 @@ class LinearSolver:
     """Linear algebra of a problem of many states with its Newton matrix M − γJ, in less than n² numbers.
 
     M is the mass matrix of the problem, 1 where it has none.
-
-    Attributes
-    ----------
-    places
-        Row and column of each entry of the Jacobian that may differ from zero, shape (2, n_entries);
-        entries of one place add up. It may be shorter where ``n_entries`` is given: entries without a place
-        are the problem's own affair, and those with one are to bound how the rounding of the state shows in
-        its rates.
-    factorise
-        ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with M − γJ from the entries
-        ``jacobian`` (n_entries,); returns the sign of the determinant, 0 where the matrix is singular. By the
-        sign a Jacobian is found out that grows faster than the step; one that returns whether the matrix is
-        regular loses that. Compiled, as are those of :class:`CompiledFunctions`; ``gamma`` may be negative.
-    solve
-        ``solve(data, factors, pivots, x)`` replaces the right-hand side ``x`` (n,) by the solution.
-    n_factors, n_pivots
-        Sizes of ``factors`` (float64) and ``pivots`` (int64): what ``factorise`` leaves to ``solve``.
-    n_entries
-        Number of entries, 0 for that of places. Integrators other than ``mebdf`` need a place for each.
     """
 
+    #: Row and column of each entry of the Jacobian that may differ from zero, shape (2, n_entries); entries
+    #: of one place add up. It may be shorter where ``n_entries`` is given: entries without a place are the
+    #: problem's own affair, and those with one are to bound how the rounding of the state shows in its rates.
     places: NDArray[np.int64]
+    #: ``factorise(gamma, data, jacobian, factors, pivots)`` prepares solutions with M − γJ from the entries
+    #: ``jacobian`` (n_entries,); returns the sign of the determinant, 0 where the matrix is singular. By the
+    #: sign a Jacobian is found out that grows faster than the step; one that returns whether the matrix is
+    #: regular loses that. Compiled, as are those of :class:`CompiledFunctions`; ``gamma`` may be negative.
     factorise: Callable[..., int]
+    #: ``solve(data, factors, pivots, x)`` replaces the right-hand side ``x`` (n,) by the solution.
     solve: Callable[..., None]
+    #: Sizes of ``factors`` (float64) and ``pivots`` (int64): what ``factorise`` leaves to ``solve``.
     n_factors: int
     n_pivots: int = 0
+    #: Number of entries, 0 for that of places. Integrators other than ``mebdf`` need a place for each.
     n_entries: int = 0
 
 
 @dataclass(frozen=True)
 class Following:
-    """Stretches of a run in which accepted steps give rows.
+    """Stretches of a run in which accepted steps give rows."""
 
-    Attributes
-    ----------
-    windows
-        Begin and end of each [s], shape (n, 2): increasing, none overlaps the next.
-    most
-        Rows kept of each; more are thinned.
-    watched
-        Places in a row of what must keep its peaks when rows are thinned; several together are the components
-        of a vector, of which the length is meant.
-    stride
-        Every how many steps give a row.
-    wanted
-        Set above zero by the functions of the problem where a step gives one in any case, shape (1,); it is
-        cleared when the row is taken.
-    """
-
-    windows: FloatArray
-    most: int
+    windows: FloatArray  #: Begin and end of each [s], shape (n, 2): increasing, none overlaps the next.
+    most: int  #: Rows kept of each; more are thinned.
+    #: Places in a row of what must keep its peaks when rows are thinned; several together are the components
+    #: of a vector, of which the length is meant.
     watched: tuple[tuple[int, ...], ...]
-    stride: int = 1
+    stride: int = 1  #: Every how many steps give a row.
+    #: Set above zero by the functions of the problem where a step gives one in any case, shape (1,); it is
+    #: cleared when the row is taken.
     wanted: FloatArray = field(default_factory=lambda: np.zeros(1))
 
 
 @dataclass(frozen=True)
 class Problem:
-    """An initial value problem with memory, ready to be integrated.
+    """An initial value problem with memory, ready to be integrated."""
 
-    Attributes
-    ----------
-    functions
-        Compiled functions, see :class:`CompiledFunctions`.
-    data
-        Constant arguments of the functions: a (nested) named tuple of arrays, numbers and records.
-    memory
-        What accepted steps change: a named tuple of arrays and records, changed in place.
-    y0
-        Initial state, shape (n,).
-    t_span
-        Start and end time [s].
-    breakpoints
-        Times strictly inside ``t_span`` [s], increasing, where the integrator restarts.
-    atol
-        Absolute tolerance of each state, shape (n,).
-    relative
-        Share of the relative tolerance that holds for each state, shape (n,); ``None`` for all of it.
-    state_names
-        Names of the states, for messages.
-    n_observed
-        Length of a row of ``observe``.
-    field_shape
-        Shape of the array of ``picture``.
-    algebra
-        ``None`` for dense matrices, which are fastest up to some dozens of states.
-    mass
-        Constant mass matrix M of M dy/dt = f, which may be singular, shape (n, n), dense or sparse, or its
-        diagonal, shape (n,); ``None`` for dy/dt = f. Only ``mebdf`` integrates with one.
-    index
-        Index of each state, 1 to 3, shape (n,), with a mass matrix; empty where all are 1.
-    following
-        Where steps give rows beside those at output times; nowhere by default.
-    longest_step
-        Length that no step exceeds [s]: what acts may swing faster than the states show.
-    solved
-        Returns the solution where states are not integrated but known or in equilibrium; its arguments are
-        the times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial
-        value problem.
-    kept
-        Places in a row of the numbers that the solution keeps, rising, those of ``following.watched`` among
-        them, shape (n_kept,); ``None`` for all.
-    picture_type
-        Type of the pictures that the solution keeps; ``picture`` fills double precision.
-    sample
-        ``sample(t, y)`` sets in the memory what is held until the next sampling time, and returns whether it
-        has; ``None`` where nothing is.
-    """
-
-    functions: CompiledFunctions
-    data: Any
-    memory: Any
-    y0: FloatArray
-    t_span: tuple[float, float]
+    functions: CompiledFunctions  #: Compiled functions, see :class:`CompiledFunctions`.
+    data: Any  #: Constant arguments of the functions: a (nested) named tuple of arrays, numbers and records.
+    memory: Any  #: What accepted steps change: a named tuple of arrays and records, changed in place.
+    y0: FloatArray  #: Initial state, shape (n,).
+    t_span: tuple[float, float]  #: Start and end time [s].
+    #: Times strictly inside ``t_span`` [s], increasing, where the integrator restarts.
     breakpoints: tuple[float, ...]
-    atol: FloatArray
-    state_names: tuple[str, ...]
-    n_observed: int
-    field_shape: tuple[int, ...]
+    atol: FloatArray  #: Absolute tolerance of each state, shape (n,).
+    state_names: tuple[str, ...]  #: Names of the states, for messages.
+    n_observed: int  #: Length of a row of ``observe``.
+    field_shape: tuple[int, ...]  #: Shape of the array of ``picture``.
+    #: Share of the relative tolerance that holds for each state, shape (n,); ``None`` for all of it.
     relative: FloatArray | None = None
+    #: ``None`` for dense matrices, which are fastest up to some dozens of states.
     algebra: LinearSolver | None = None
+    #: Constant mass matrix M of M dy/dt = f, which may be singular, shape (n, n), dense or sparse, or its
+    #: diagonal, shape (n,); ``None`` for dy/dt = f. Only ``mebdf`` integrates with one.
     mass: Any = None
+    #: Index of each state, 1 to 3, shape (n,), with a mass matrix; empty where all are 1.
     index: tuple[int, ...] = ()
+    #: Where steps give rows beside those at output times; nowhere by default.
     following: Following | None = None
+    #: Length that no step exceeds [s]: what acts may swing faster than the states show.
     longest_step: float = math.inf
+    #: Returns the solution where states are not integrated but known or in equilibrium; its arguments are the
+    #: times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial value
+    #: problem.
     solved: Callable[[FloatArray, FloatArray, Callable[[float], None] | None], Solution] | None = None
+    #: ``sample(t, y)`` sets in the memory what is held until the next sampling time, and returns whether it
+    #: has; ``None`` where nothing is.
     sample: Callable[[float, FloatArray], bool] | None = None
+    #: Places in a row of the numbers that the solution keeps, rising, those of ``following.watched`` among
+    #: them, shape (n_kept,); ``None`` for all.
     kept: NDArray[np.intp] | None = None
+    #: Type of the pictures that the solution keeps; ``picture`` fills double precision.
     picture_type: str = "float64"
 
     @property
@@ -236,37 +166,19 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Solution:
-    """Result of an integration: rows at output times, pictures, cost, and its end.
+    """Result of an integration: rows at output times, pictures, cost, and its end."""
 
-    Attributes
-    ----------
-    t
-        Times of the rows [s], shape (n_t,): the output times, up to a failure, and those of steps followed.
-    rows
-        Observed quantities that are kept, shape (n_t, n_kept).
-    picture_times
-        Times of the pictures reached [s], shape (n_p,).
-    pictures
-        Fields, shape (n_p,) followed by the problem's ``field_shape``.
-    t_end, y_end
-        Time and state at the end of the last accepted step.
-    statistics
-        Cost.
-    failure
-        ``None``, or the reason why the end was not reached.
-    notes
-        On its accuracy, in words.
-    """
-
+    #: Times of the rows [s], shape (n_t,): the output times, up to a failure, and those of steps followed.
     t: FloatArray
-    rows: FloatArray
-    picture_times: FloatArray
-    pictures: Floats
+    rows: FloatArray  #: Observed quantities that are kept, shape (n_t, n_kept).
+    picture_times: FloatArray  #: Times of the pictures reached [s], shape (n_p,).
+    pictures: Floats  #: Fields, shape (n_p,) followed by the problem's ``field_shape``.
+    #: Time and state at the end of the last accepted step.
     t_end: float
     y_end: FloatArray
-    statistics: Statistics = field(default_factory=Statistics)
-    failure: str | None = None
-    notes: tuple[str, ...] = ()
+    statistics: Statistics = field(default_factory=Statistics)  #: Cost.
+    failure: str | None = None  #: ``None``, or the reason why the end was not reached.
+    notes: tuple[str, ...] = ()  #: On its accuracy, in words.
 
     @property
     def complete(self) -> bool:

@@ -7,35 +7,21 @@ from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
+#: One record of such a type; its entries are attributes, in compiled code and out of it.
 Record: TypeAlias = Any
-"""One record of such a type; its entries are attributes, in compiled code and out of it."""
 RecordType: TypeAlias = np.dtype[np.void]
 
 TIME: Final = ("time",)
 
 
 class Quantity(NamedTuple):
-    """One number or vector that kernels fill in by its name.
+    """One number or vector that kernels fill in by its name."""
 
-    Attributes
-    ----------
-    name
-        Its name, everywhere.
-    unit
-        SI unit as a UDUNITS string, ``"1"`` for a ratio.
-    meaning
-        Plain words, used as axis label and in the documentation.
-    dimensions
-        Dimensions of the array that a result holds of it.
-    size
-        Number of components.
-    """
-
-    name: str
-    unit: str
-    meaning: str
-    dimensions: tuple[str, ...] = TIME
-    size: int = 1
+    name: str  #: Its name, everywhere.
+    unit: str  #: SI unit as a UDUNITS string, ``"1"`` for a ratio.
+    meaning: str  #: Plain words, used as axis label and in the documentation.
+    dimensions: tuple[str, ...] = TIME  #: Dimensions of the array that a result holds of it.
+    size: int = 1  #: Number of components.
 
 
 Table: TypeAlias = Sequence[Quantity]

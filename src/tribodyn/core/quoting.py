@@ -7,11 +7,9 @@ from typing import Final
 
 from tribodyn.core.synonyms import meanings
 
-LONGEST: Final = 80
-"""Characters of a given text that a message repeats at most."""
+LONGEST: Final = 80  #: Characters of a given text that a message repeats at most.
 GREY: Final = "\x1b[2m"
-PLAIN: Final = "\x1b[0m"
-"""Escapes that make a terminal write in grey, and as before."""
+PLAIN: Final = "\x1b[0m"  #: Escapes that make a terminal write in grey, and as before.
 
 
 def brief(text: object, most: int = LONGEST) -> str:

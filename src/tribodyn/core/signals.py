@@ -22,29 +22,20 @@ _ROUNDING: Final = 1.0e-9
 # One is equal to itself alone: arrays do not say of each other whether they are.
 @dataclass(frozen=True, eq=False)
 class Signal:
-    """A number that follows time or a coordinate: a polynomial between knots, or a sine.
+    """A number that follows time or a coordinate: a polynomial between knots, or a sine."""
 
-    Attributes
-    ----------
-    kind
-        ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but
-        at kinks, or its integral.
-    coefficients
-        c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n) or (5, n), highest power
-        first, over the distance from the knot on the left.
-    knots
-        Shape (n + 1,), increasing; of no length without a table. The first and last value hold beyond.
-    kinks
-        Where the slope, or what follows from it, jumps: no step crosses them if the argument is time, shape
-        (m,).
-    period
-        Distance after which a table repeats, which is its length but for rounding; 0 where it does not.
-    """
-
+    #: ``constant``: c₀. ``sinusoid``: c₀ + c₁ sin(c₂ x + c₃). ``table``: a cubic spline, C² everywhere but at
+    #: kinks, or its integral.
     kind: str
+    #: c of a constant or sinusoid, shape (1,) or (4,); of a table shape (4, n) or (5, n), highest power
+    #: first, over the distance from the knot on the left.
     coefficients: FloatArray
+    #: Shape (n + 1,), increasing; of no length without a table. The first and last value hold beyond.
     knots: FloatArray
+    #: Where the slope, or what follows from it, jumps: no step crosses them if the argument is time, shape
+    #: (m,).
     kinks: FloatArray
+    #: Distance after which a table repeats, which is its length but for rounding; 0 where it does not.
     period: float = 0.0
 
     def __call__(self, places: FloatArray) -> FloatArray:

@@ -18,17 +18,10 @@ from tribodyn.core.arrays import FloatArray
 
 @dataclass(frozen=True)
 class Cubics:
-    """Cubic polynomials between nodes with given values and slopes; the outer ones go on beyond.
+    """Cubic polynomials between nodes with given values and slopes; the outer ones go on beyond."""
 
-    Attributes
-    ----------
-    x
-        Nodes, rising, shape (n,).
-    values, slopes
-        At the nodes, shape (n, ...).
-    """
-
-    x: FloatArray
+    x: FloatArray  #: Nodes, rising, shape (n,).
+    #: At the nodes, shape (n, ...).
     values: FloatArray
     slopes: FloatArray
 
@@ -133,8 +126,7 @@ def bisected(function: Callable[[float], float], low: float, high: float, tolera
             return middle
 
 
-_ITERATIONS: Final = 6
-"""Each doubles the digits of points that begin with three."""
+_ITERATIONS: Final = 6  #: Each doubles the digits of points that begin with three.
 
 
 @cache

@@ -12,8 +12,7 @@ from typing import TypeAlias
 
 from tribodyn.core.errors import Stopped
 
-Stop: TypeAlias = Callable[[], bool] | None
-"""Returns whether to stop; None where nobody can ask for that."""
+Stop: TypeAlias = Callable[[], bool] | None  #: Returns whether to stop; None where nobody can ask for that.
 
 
 @dataclass

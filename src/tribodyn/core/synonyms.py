@@ -2,6 +2,7 @@
 
 from typing import Final
 
+#: Probable meanings, the likeliest first; a word that is also one of ours is never looked up.
 SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     # Kinds of joints.
     "hinge": ("revolute",),
@@ -84,9 +85,8 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "plot": ("report",),
     "gui": ("workbench",),
 }
-"""Probable meanings, the likeliest first; a word that is also one of ours is never looked up."""
+#: Words whose values are twice those of the words of this program for them.
 OF_DIAMETERS: Final = frozenset({"diameter", "diametral", "diametral_clearance"})
-"""Words whose values are twice those of the words of this program for them."""
 
 
 def meanings(word: str) -> tuple[str, ...]:

@@ -18,39 +18,28 @@ from typing import Final, TypeAlias
 from tribodyn.core import fork_server, platforms
 from tribodyn.core.errors import TribodynError
 
-DEATHS: Final = 2
-"""Deaths of its worker that a task survives: it is repeated after each."""
+DEATHS: Final = 2  #: Deaths of its worker that a task survives: it is repeated after each.
+#: Why a task has no result when its worker has died once more than that.
 DIED: Final = "its worker process died at every attempt"
-"""Why a task has no result when its worker has died once more than that."""
 UNREADY: Final = (
     "worker processes die while they get ready: the memory may be short, or a script starts them outside of "
     '`if __name__ == "__main__":`'
 )
 
+#: From a message to the reply; None where there is none. It may send more over the connection before.
 Answer: TypeAlias = Callable[[bytes, Connection], bytes | None]
-"""From a message to the reply; None where there is none. It may send more over the connection before."""
 
 
 @dataclass(frozen=True)
 class Service:
-    """Task of a worker process; all functions are those of a module.
+    """Task of a worker process; all functions are those of a module."""
 
-    Attributes
-    ----------
-    answer
-        Called with every message.
-    prepare
-        Called once before the first.
-    memory
-        Address space that the process may take beyond what it has when it starts [bytes]; kept on Linux. None
-        for no limit.
-    largest_reply
-        Size of a reply [bytes]; the process is given up if it sends more. None for no limit.
-    """
-
-    answer: Answer
-    prepare: Callable[[], object] | None = None
+    answer: Answer  #: Called with every message.
+    prepare: Callable[[], object] | None = None  #: Called once before the first.
+    #: Address space that the process may take beyond what it has when it starts [bytes]; kept on Linux. None
+    #: for no limit.
     memory: int | None = None
+    #: Size of a reply [bytes]; the process is given up if it sends more. None for no limit.
     largest_reply: int | None = None
 
 

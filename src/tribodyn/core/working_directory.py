@@ -13,8 +13,8 @@ from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from types import ModuleType
 from typing import Final
 
+#: Modules that read settings when they are imported, and the file that they look for.
 _FILES: Final = {"numba.core.config": ".numba_config.yaml", "matplotlib": "matplotlibrc"}
-"""Modules that read settings when they are imported, and the file that they look for."""
 
 
 class _Loader(SourceFileLoader):

@@ -37,12 +37,9 @@ DASHES: Final[dict[str, style.LineStyle]] = {
     "dashdot": style.DASHDOT,
     "longdash": (0, (9, 2)),
 }
-_PANEL: Final = 1.55
-"""Height of a panel [in]."""
-_WIDTHS: Final = (1.7, 1.0)
-"""Of the columns of panels and of close-ups."""
-_LONGEST: Final = 0.3
-"""Length of a close-up, at most [s]."""
+_PANEL: Final = 1.55  #: Height of a panel [in].
+_WIDTHS: Final = (1.7, 1.0)  #: Of the columns of panels and of close-ups.
+_LONGEST: Final = 0.3  #: Length of a close-up, at most [s].
 
 
 def family(chart: Chart) -> Family:

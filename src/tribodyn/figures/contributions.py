@@ -10,42 +10,27 @@ from matplotlib.figure import Figure
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 
+#: Part of the error that joints cause only together, in the place of a joint.
 TOGETHER: Final = "only together"
-"""Part of the error that joints cause only together, in the place of a joint."""
 _COLOURS: Final = (style.ORANGE, style.GREEN, style.PURPLE)
-_ROOM: Final = 1.25
-"""Height of title, axis and legend [in]."""
+_ROOM: Final = 1.25  #: Height of title, axis and legend [in].
 _ROW: Final = 0.34
 _THICK: Final = 0.36
 
 
 @dataclass(frozen=True)
 class Shares:
-    """Data of the picture of one output's error.
+    """Data of the picture of one output's error."""
 
-    Attributes
-    ----------
-    title, case
-        Of the figure, and the title of the case.
-    joints
-        Names, n of them.
-    simulated
-        Share of each joint [1], shape (n,).
-    interaction
-        Share that joints cause only together [1].
-    estimate
-        Share of each joint and cause by superposition [1], shape (n, m); (n, 0) without one.
-    causes
-        Names of the causes, m of them.
-    """
-
+    #: Of the figure, and the title of the case.
     title: str
     case: str
-    joints: tuple[str, ...]
-    simulated: FloatArray
-    interaction: float
+    joints: tuple[str, ...]  #: Names, n of them.
+    simulated: FloatArray  #: Share of each joint [1], shape (n,).
+    interaction: float  #: Share that joints cause only together [1].
+    #: Share of each joint and cause by superposition [1], shape (n, m); (n, 0) without one.
     estimate: FloatArray
-    causes: tuple[str, ...]
+    causes: tuple[str, ...]  #: Names of the causes, m of them.
 
 
 def draw(shares: Shares) -> Figure:

@@ -17,32 +17,17 @@ from tribodyn.views.gltf import Solid
 
 @dataclass(frozen=True)
 class Family:
-    """One figure that can be drawn from any result holding what it needs.
+    """One figure that can be drawn from any result holding what it needs."""
 
-    Attributes
-    ----------
-    name
-        File name without ``.png``.
-    title
-        What it shows.
-    caption
-        How to read it, in a sentence or two.
-    needs
-        Names of the variables without which it is not drawn.
-    draw
-        Draws it. A result may be short, empty or hold NaN: what is there is drawn, and a note names the rest.
-    shows
-        Whether a result that holds them has something to show.
-    over
-        Draws it over the angle of a joint; None where it has no time axis.
-    """
-
-    name: str
-    title: str
-    caption: str
-    needs: tuple[str, ...]
+    name: str  #: File name without ``.png``.
+    title: str  #: What it shows.
+    caption: str  #: How to read it, in a sentence or two.
+    needs: tuple[str, ...]  #: Names of the variables without which it is not drawn.
+    #: Draws it. A result may be short, empty or hold NaN: what is there is drawn, and a note names the rest.
     draw: Callable[[xr.Dataset], Figure]
+    #: Whether a result that holds them has something to show.
     shows: Callable[[xr.Dataset], bool] = lambda dataset: True
+    #: Draws it over the angle of a joint; None where it has no time axis.
     over: Callable[[xr.Dataset, str], Figure] | None = None
 
     def drawable(self, dataset: xr.Dataset) -> bool:
@@ -61,17 +46,10 @@ class MovingFigure(Protocol):
 
 @dataclass(frozen=True)
 class Animation:
-    """Motion of a mechanism, as a film and as solids in space.
+    """Motion of a mechanism, as a film and as solids in space."""
 
-    Attributes
-    ----------
-    film
-        From a result and times [s], shape (n_t,).
-    solids
-        Likewise the bodies with their motion, and the axis of the drawing that points upwards.
-    """
-
-    film: Callable[[xr.Dataset, FloatArray], MovingFigure]
+    film: Callable[[xr.Dataset, FloatArray], MovingFigure]  #: From a result and times [s], shape (n_t,).
+    #: Likewise the bodies with their motion, and the axis of the drawing that points upwards.
     solids: Callable[[xr.Dataset, FloatArray], tuple[list[Solid], str]]
 
 

@@ -65,12 +65,11 @@ def draw_map(
     return mesh
 
 
-_BEYOND: Final = 0.17
-"""Room beyond the edges, over half of the height."""
+_BEYOND: Final = 0.17  #: Room beyond the edges, over half of the height.
 TITLE: Final = "Contact pressure on the unrolled bushing"
 Panels: TypeAlias = NDArray[np.object_]
+#: The contact zone is where the pressure exceeds this share of its peak; the share is ours.
 CONTACT_ZONE: Final = 0.05
-"""The contact zone is where the pressure exceeds this share of its peak; the share is ours."""
 
 
 def draw(

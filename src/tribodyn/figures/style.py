@@ -33,19 +33,16 @@ DASHED: Final[LineStyle] = (0, (5, 1.8))
 DOTTED: Final[LineStyle] = (0, (1.2, 1.4))
 DASHDOT: Final[LineStyle] = (0, (6, 1.6, 1.2, 1.6))
 
+#: Curves as (values, label, colour, dash pattern).
 Curves: TypeAlias = list[tuple[FloatArray, str, str, LineStyle]]
-"""Curves as (values, label, colour, dash pattern)."""
 
-WIDTH: Final = 7.6
-"""Width of a figure [in]."""
+WIDTH: Final = 7.6  #: Width of a figure [in].
 DPI: Final = 150
 TEXT: Final = 9.0
 SMALL: Final = 8.0
-_ACROSS: Final = 3
-"""Panels beside each other; one less where their names are long."""
+_ACROSS: Final = 3  #: Panels beside each other; one less where their names are long.
 _LONG: Final = 18
-_FACT: Final = 60
-"""Characters of a fact about a run that stand below a title."""
+_FACT: Final = 60  #: Characters of a fact about a run that stand below a title.
 
 
 def sheet(dataset: xr.Dataset, title: str, height: float, width: float = WIDTH) -> Figure:

@@ -18,8 +18,7 @@ TITLE: Final = "Measured surface"
 _MICRO: Final = 1e6
 _MOST_PIXELS: Final = 800
 _BINS: Final = 60
-_WIDEST: Final = 6.0
-"""Heights shown [σ]; what stands beyond is in the kurtosis."""
+_WIDEST: Final = 6.0  #: Heights shown [σ]; what stands beyond is in the kurtosis.
 
 
 def draw(surface: MeasuredSurface, others: Sequence[MeasuredSurface]) -> Figure:

@@ -30,12 +30,9 @@ _DASHES: Final = (style.SOLID, style.DASHED, style.DOTTED, style.DASHDOT)
 _MARKERS: Final = "os^Dv"
 _MOST_PANELS: Final = 6
 _MOST_BINS: Final = 100
-_ROUNDING: Final = 1e-12
-"""Range of values over the largest of them up to which rounding alone parts them."""
-_WIDE_RANGE: Final = 50.0
-"""Largest over smallest value of a parameter above which its axis is logarithmic."""
-_MOST_WRITTEN: Final = 60
-"""Cells of a map up to which each has its number written into it."""
+_ROUNDING: Final = 1e-12  #: Range of values over the largest of them up to which rounding alone parts them.
+_WIDE_RANGE: Final = 50.0  #: Largest over smallest value of a parameter above which its axis is logarithmic.
+_MOST_WRITTEN: Final = 60  #: Cells of a map up to which each has its number written into it.
 EFFORT_GROUP: Final = "Effort"
 
 

@@ -40,34 +40,21 @@ class FrictionLimit:
     """Limit of friction of a drive or guide.
 
     Torques stand for forces where the speed is linear. Every coefficient is zero by default.
-
-    Attributes
-    ----------
-    coulomb
-        Coulomb friction F_c [N m].
-    viscous
-        Viscous coefficient F_v [N m s/rad].
-    stribeck
-        Static friction above Coulomb friction, F_s [N m].
-    stribeck_speed, stribeck_exponent
-        Stribeck speed w_s [rad/s] and exponent a [1].
-    motor_load, external_load
-        Friction per transmitted torque of the motor and of the load, k_m and k_e [1].
-    motor_load_stribeck, external_load_stribeck
-        The same at rest, in addition, s_m and s_e [1].
-    motor_load_quadratic, external_load_quadratic
-        Friction at rest per squared torque, q_m and q_e [1/(N m)].
     """
 
-    coulomb: float = 0.0
-    viscous: float = 0.0
-    stribeck: float = 0.0
+    coulomb: float = 0.0  #: Coulomb friction F_c [N m].
+    viscous: float = 0.0  #: Viscous coefficient F_v [N m s/rad].
+    stribeck: float = 0.0  #: Static friction above Coulomb friction, F_s [N m].
+    #: Stribeck speed w_s [rad/s] and exponent a [1].
     stribeck_speed: float = 1.0
     stribeck_exponent: float = 2.0
+    #: Friction per transmitted torque of the motor and of the load, k_m and k_e [1].
     motor_load: float = 0.0
     external_load: float = 0.0
+    #: The same at rest, in addition, s_m and s_e [1].
     motor_load_stribeck: float = 0.0
     external_load_stribeck: float = 0.0
+    #: Friction at rest per squared torque, q_m and q_e [1/(N m)].
     motor_load_quadratic: float = 0.0
     external_load_quadratic: float = 0.0
 

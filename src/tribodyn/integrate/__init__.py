@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["INTERRUPTED", "MEBDF", "SOLVERS", "integrate"]
 
+#: All integrators by name.
 SOLVERS: Final[dict[str, Integrator]] = {
     "mebdf": COMPILED_MEBDF,
     "bdf": Stepwise(BDF),
@@ -25,7 +26,6 @@ SOLVERS: Final[dict[str, Integrator]] = {
     "lsoda": Stepwise(LSODA),
     "cvode": Stepwise(CVODE),
 }
-"""All integrators by name."""
 
 
 def __getattr__(name: str) -> Any:

@@ -31,64 +31,36 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
 
+#: ``fun(t, y)``: a new array, (n,) for a right-hand side, (n, n) for a Jacobian.
 VectorFunction: TypeAlias = Callable[[float, FloatArray], FloatArray]
-"""``fun(t, y)``: a new array, (n,) for a right-hand side, (n, n) for a Jacobian."""
 
+#: ``interpolate(t)``: the state (n,) at a time inside the step it belongs to.
 Interpolant: TypeAlias = Callable[[float], FloatArray]
-"""``interpolate(t)``: the state (n,) at a time inside the step it belongs to."""
 
 
 class Step(NamedTuple):
-    """An accepted step.
+    """An accepted step."""
 
-    Attributes
-    ----------
-    t_old, t
-        Begin and end [s].
-    y
-        State at the end, shape (n,).
-    interpolate
-        The solution inside the step.
-    """
-
+    #: Begin and end [s].
     t_old: float
     t: float
-    y: FloatArray
-    interpolate: Interpolant
+    y: FloatArray  #: State at the end, shape (n,).
+    interpolate: Interpolant  #: The solution inside the step.
 
 
 class Segment(NamedTuple):
-    """A plain initial value problem.
+    """A plain initial value problem."""
 
-    Attributes
-    ----------
-    rhs, jac
-        Right-hand side and its Jacobian; both return a new array at each call.
-    t_start
-        Begin [s].
-    y_start
-        State there, shape (n,).
-    t_end
-        End [s], after ``t_start``.
-    rtol
-        Relative tolerance.
-    atol
-        Absolute tolerance of each state, shape (n,).
-    statistics
-        Where LU decompositions and rejected steps are added.
-    longest
-        Length that no step exceeds [s].
-    """
-
+    #: Right-hand side and its Jacobian; both return a new array at each call.
     rhs: VectorFunction
     jac: VectorFunction
-    t_start: float
-    y_start: FloatArray
-    t_end: float
-    rtol: float
-    atol: FloatArray
-    statistics: Statistics
-    longest: float = math.inf
+    t_start: float  #: Begin [s].
+    y_start: FloatArray  #: State there, shape (n,).
+    t_end: float  #: End [s], after ``t_start``.
+    rtol: float  #: Relative tolerance.
+    atol: FloatArray  #: Absolute tolerance of each state, shape (n,).
+    statistics: Statistics  #: Where LU decompositions and rejected steps are added.
+    longest: float = math.inf  #: Length that no step exceeds [s].
 
 
 class Method(Protocol):

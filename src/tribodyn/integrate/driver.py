@@ -17,17 +17,14 @@ from tribodyn.core.problem import Floats, Problem, Solution, Statistics
 from tribodyn.integrate.base import Binding, Method, Segment, Step, VectorFunction, all_finite
 from tribodyn.integrate.following import Followed, Schedule, take_places
 
-LOOK: Final = 4.0
-"""Time between two looks [s]; two of them find out within ten seconds."""
-LEAST_WORK: Final = 2000
-"""Evaluations between two looks below which a run is slow, but not stuck."""
+LOOK: Final = 4.0  #: Time between two looks [s]; two of them find out within ten seconds.
+LEAST_WORK: Final = 2000  #: Evaluations between two looks below which a run is slow, but not stuck.
+#: Mean progress of an evaluation between two looks, over the usual one, of a run that is stuck. Thousands of
+#: evaluations in one impact, or in the ringing after it, get on a hundred times as fast.
 COLLAPSED: Final = 1.0e-5
-"""Mean progress of an evaluation between two looks, over the usual one, of a run that is stuck. Thousands of
-evaluations in one impact, or in the ringing after it, get on a hundred times as fast."""
+#: The usual progress of an evaluation, over the interval of output times, where there is no other yet.
 USUAL: Final = 0.1
-"""The usual progress of an evaluation, over the interval of output times, where there is no other yet."""
-MOST_LEFT: Final = 1.0e9
-"""Evaluations that the rest of a run may need at the present pace."""
+MOST_LEFT: Final = 1.0e9  #: Evaluations that the rest of a run may need at the present pace.
 
 
 class Patience:
@@ -109,11 +106,10 @@ class Kept:
         self.numbers = n_rows, first + len(pictures)
 
 
-INTERRUPTED = "interrupted"
-"""Reason of a failure when the caller asked to stop."""
+INTERRUPTED = "interrupted"  #: Reason of a failure when the caller asked to stop.
 
+#: Time without an accepted step after which the caller is asked whether to stop all the same [s].
 LONG_STEP: Final = 0.3
-"""Time without an accepted step after which the caller is asked whether to stop all the same [s]."""
 
 
 @dataclass(frozen=True)
@@ -141,15 +137,9 @@ class Integrator(Protocol):
 
 @dataclass(frozen=True)
 class Stepwise:
-    """An integrator made of a method that yields one step at a time.
+    """An integrator made of a method that yields one step at a time."""
 
-    Attributes
-    ----------
-    method
-        The method.
-    """
-
-    method: Method
+    method: Method  #: The method.
 
     def prepare(self) -> None:
         """Import the packages of the method, see :class:`Integrator`."""

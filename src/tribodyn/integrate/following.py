@@ -14,36 +14,24 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Following
 
-ROUNDING = 64.0 * np.finfo(np.float64).eps
-"""Times closer than this share of the largest time are the same."""
+ROUNDING = 64.0 * np.finfo(np.float64).eps  #: Times closer than this share of the largest time are the same.
 
 
 @dataclass(frozen=True)
 class Schedule:
-    """Marks of an integration in time, all increasing.
+    """Marks of an integration in time, all increasing."""
 
-    Attributes
-    ----------
-    edges
-        Start time, breakpoints and end time [s], shape (n_segments + 1,).
-    marks
-        Times of outputs and pictures [s], shape (n_marks,); a mark that is meant to be an
-        edge equals it exactly.
-    is_output, is_picture
-        What is taken at each mark, shape (n_marks,); a mark may be both.
-    output_times, picture_times
-        The times as asked for [s].
-    tolerance
-        Times closer than this are the same [s].
-    """
-
-    edges: FloatArray
+    edges: FloatArray  #: Start time, breakpoints and end time [s], shape (n_segments + 1,).
+    #: Times of outputs and pictures [s], shape (n_marks,); a mark that is meant to be an edge equals it
+    #: exactly.
     marks: FloatArray
+    #: What is taken at each mark, shape (n_marks,); a mark may be both.
     is_output: NDArray[np.bool_]
     is_picture: NDArray[np.bool_]
+    #: The times as asked for [s].
     output_times: FloatArray
     picture_times: FloatArray
-    tolerance: float
+    tolerance: float  #: Times closer than this are the same [s].
 
 
 def make_schedule(
@@ -114,20 +102,16 @@ def _snapped(times: FloatArray, targets: FloatArray, tolerance: float) -> FloatA
     return snapped
 
 
-CHUNK: Final = 512
-"""Rows collected between two visits."""
+CHUNK: Final = 512  #: Rows collected between two visits.
+#: A stretch is thinned on the way when it holds this many times the rows that it may keep.
 _UNTHINNED: Final = 4
-"""A stretch is thinned on the way when it holds this many times the rows that it may keep."""
-ROOM: Final = 64_000_000
-"""Size of its rows from which it is thinned at twice these rows already [B]."""
+ROOM: Final = 64_000_000  #: Size of its rows from which it is thinned at twice these rows already [B].
 
-_MOVED: Final = 64
-"""Rows moved at once, at most: where they overlap, NumPy copies them first."""
+_MOVED: Final = 64  #: Rows moved at once, at most: where they overlap, NumPy copies them first.
+#: Least size of a block of rows [B]: NumPy asks for large pages from 4 MB on; each costs when first used.
 BLOCK: Final = 8_000_000
-"""Least size of a block of rows [B]: NumPy asks for large pages from 4 MB on; each costs when first used."""
 
-Rows = tuple[FloatArray, FloatArray]
-"""Times [s], shape (n,), and rows, shape (n, n_observed)."""
+Rows = tuple[FloatArray, FloatArray]  #: Times [s], shape (n,), and rows, shape (n, n_observed).
 
 
 class Followed:

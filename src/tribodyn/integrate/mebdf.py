@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from tribodyn.kernels.mebdf.drive import Marks
     from tribodyn.kernels.mebdf.own import OwnMatrix
 
+#: Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first.
 BETWEEN_LOOKS: Final = 0.1
-"""Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first."""
 
 
 class CompiledMebdf:

@@ -23,23 +23,15 @@ from tribodyn.integrate.base import Interpolant, Segment, Step, VectorFunction
 
 @dataclass(frozen=True)
 class ScipyMethod:
-    """A solver class of ``scipy.integrate``.
+    """A solver class of ``scipy.integrate``."""
 
-    Attributes
-    ----------
-    class_name
-        Name of a subclass of ``scipy.integrate.OdeSolver`` that accepts ``jac``.
-    interpolant
-        Makes of a solver the function that gives the state inside its last step. What
-        ``solver.dense_output()`` returns does the same; its checks take as long as two to
-        four right-hand sides of a mechanism.
-    resume
-        Called with the solver before each step but the first: the memory of the problem may
-        have changed the right-hand side since the step before.
-    """
-
-    class_name: str
+    class_name: str  #: Name of a subclass of ``scipy.integrate.OdeSolver`` that accepts ``jac``.
+    #: Makes of a solver the function that gives the state inside its last step. What
+    #: ``solver.dense_output()`` returns does the same; its checks take as long as two to four right-hand
+    #: sides of a mechanism.
     interpolant: Callable[[Any], Interpolant]
+    #: Called with the solver before each step but the first: the memory of the problem may have changed the
+    #: right-hand side since the step before.
     resume: Callable[[Any], None] | None = None
 
     def prepare(self) -> None:

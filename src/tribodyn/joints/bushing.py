@@ -27,27 +27,17 @@ from tribodyn.kernels.joints.quantities import REPORTED
 from tribodyn.kernels.joints.surface.data import GAP
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
+#: Friction as traction along the actual slip, or as the paper's moment without a force.
 FRICTION_MODELS: Final = ("traction", "moment")
-"""Friction as traction along the actual slip, or as the paper's moment without a force."""
 
 
 @dataclass(frozen=True)
 class Friction:
-    """Dry friction of the joint.
+    """Dry friction of the joint."""
 
-    Attributes
-    ----------
-    coefficient
-        μ_f [1].
-    model
-        One of :data:`FRICTION_MODELS`.
-    slip_velocity
-        Regularisation velocity u_s of the traction [m/s].
-    """
-
-    coefficient: float
-    model: str
-    slip_velocity: float
+    coefficient: float  #: μ_f [1].
+    model: str  #: One of :data:`FRICTION_MODELS`.
+    slip_velocity: float  #: Regularisation velocity u_s of the traction [m/s].
 
     def __post_init__(self) -> None:
         """Refuse an unknown friction model."""
@@ -59,21 +49,11 @@ class Friction:
 
 @dataclass(frozen=True)
 class EntryMemory:
-    """Memory of a point of the bushing: the speed at which contact began.
+    """Memory of a point of the bushing: the speed at which contact began."""
 
-    Attributes
-    ----------
-    onset
-        Separation over σ below which a point is in contact [1].
-    minimum_velocity
-        Least entry velocity v_min [m/s].
-    tensile_clip
-        Whether the total pressure is kept from becoming tensile.
-    """
-
-    onset: float
-    minimum_velocity: float
-    tensile_clip: bool
+    onset: float  #: Separation over σ below which a point is in contact [1].
+    minimum_velocity: float  #: Least entry velocity v_min [m/s].
+    tensile_clip: bool  #: Whether the total pressure is kept from becoming tensile.
 
 
 @dataclass(frozen=True)
@@ -86,33 +66,19 @@ class Grid:
 
 @dataclass(frozen=True)
 class BushingJoint:
-    """A bushing joint with its tabulated contact law.
+    """A bushing joint with its tabulated contact law."""
 
-    Attributes
-    ----------
-    geometry, friction, entry, grid
-        See their classes.
-    roughness
-        Combined rms roughness σ [m].
-    table
-        Tabulated contact law, or the force of a point contact.
-    contact
-        One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
-    liner
-        What the asperities stand on, which the table allows for; None where that is rigid.
-    form
-        What the surfaces stand back from cylinders.
-    """
-
+    #: See their classes.
     geometry: Cylinder
     friction: Friction
     entry: EntryMemory
     grid: Grid
-    roughness: float
-    table: ContactTable
-    contact: str = SURFACE
+    roughness: float  #: Combined rms roughness σ [m].
+    table: ContactTable  #: Tabulated contact law, or the force of a point contact.
+    contact: str = SURFACE  #: One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
+    #: What the asperities stand on, which the table allows for; None where that is rigid.
     liner: Liner | None = None
-    form: Form = field(default_factory=Form)
+    form: Form = field(default_factory=Form)  #: What the surfaces stand back from cylinders.
 
     @property
     def theta(self) -> FloatArray:

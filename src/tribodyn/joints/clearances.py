@@ -32,93 +32,50 @@ from tribodyn.kernels.joints.surface.pose import Pose
 if TYPE_CHECKING:
     from tribodyn.lubrication import Film
 
-SPHERE: Final = "point-lankarani-nikravesh"
-"""The point contact that a ball in a race can have."""
+SPHERE: Final = "point-lankarani-nikravesh"  #: The point contact that a ball in a race can have.
 
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceLaw:
-    """Contact of two surfaces.
+    """Contact of two surfaces."""
 
-    Attributes
-    ----------
-    roughness
-        Combined rms roughness σ [m].
-    table
-        Contact law, tabulated.
-    friction_coefficient, slip_velocity
-        μ and its regularisation u_s [m/s].
-    onset, minimum_velocity, tensile_clip
-        See ``joints.EntryMemory``.
-    hardness
-        Largest pressure [Pa]; a law without one ends with its table.
-    bulk
-        Elastic bodies under the asperities, where their compliance follows the contact.
-    """
-
-    roughness: float
-    table: ContactTable
+    roughness: float  #: Combined rms roughness σ [m].
+    table: ContactTable  #: Contact law, tabulated.
+    #: μ and its regularisation u_s [m/s].
     friction_coefficient: float
     slip_velocity: float
+    #: See ``joints.EntryMemory``.
     onset: float
     minimum_velocity: float
     tensile_clip: bool
-    hardness: float = math.inf
+    hardness: float = math.inf  #: Largest pressure [Pa]; a law without one ends with its table.
+    #: Elastic bodies under the asperities, where their compliance follows the contact.
     bulk: Bulk | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Clearance(SurfaceLaw):
-    """Clearance of a joint: two surfaces and the forces between them.
+    """Clearance of a joint: two surfaces and the forces between them."""
 
-    Attributes
-    ----------
-    shape
-        Where the surfaces are, with their dimensions.
-    grid
-        Nodes along the two directions of the shape.
-    law
-        Contact law that is tabulated.
-    contact
-        ``surface``, or a point contact of ``joints.CONTACTS``.
-    liner
-        What the asperities stand on; None where that is rigid.
-    slides
-        Whether the shaft is meant to slide along its axis, however far.
-    film
-        Oil film in the bore of a cylinder; None where it is dry.
-    openings
-        What temperatures add to the radial clearance and to the play along the axis over time [m, s]; None
-        where these are constant.
-    """
-
-    shape: Shape
-    grid: tuple[int, int]
-    law: ContactLaw
-    contact: str
-    liner: Liner | None = None
-    slides: bool = False
-    film: Film | None = None
+    shape: Shape  #: Where the surfaces are, with their dimensions.
+    grid: tuple[int, int]  #: Nodes along the two directions of the shape.
+    law: ContactLaw  #: Contact law that is tabulated.
+    contact: str  #: ``surface``, or a point contact of ``joints.CONTACTS``.
+    liner: Liner | None = None  #: What the asperities stand on; None where that is rigid.
+    slides: bool = False  #: Whether the shaft is meant to slide along its axis, however far.
+    film: Film | None = None  #: Oil film in the bore of a cylinder; None where it is dry.
+    #: What temperatures add to the radial clearance and to the play along the axis over time [m, s]; None
+    #: where these are constant.
     openings: tuple[Signal | None, Signal | None] = (None, None)
 
 
 @dataclass(frozen=True)
 class Place:
-    """Place of a surface in the arrays of a mechanism.
+    """Place of a surface in the arrays of a mechanism."""
 
-    Attributes
-    ----------
-    joint
-        Number of the clearance joint.
-    surface
-        The surface itself.
-    nodes
-        Its part of every array over nodes.
-    """
-
-    joint: int
-    surface: Surface
-    nodes: slice
+    joint: int  #: Number of the clearance joint.
+    surface: Surface  #: The surface itself.
+    nodes: slice  #: Its part of every array over nodes.
 
 
 def contact_table(

@@ -20,27 +20,17 @@ from tribodyn.kernels.joints.bushing import update_entry_velocity, wrench
 from tribodyn.kernels.joints.pose import F_X, N_WRENCH
 
 _MOST_STEPS: Final = 20_000
+#: In σ at the first speed: points that enter contact take the speed at the end of a step.
 _LONGEST_STEP: Final = 0.05
-"""In σ at the first speed: points that enter contact take the speed at the end of a step."""
 
 
 @dataclass(frozen=True)
 class Drop:
-    """Result of one drop of a shaft.
+    """Result of one drop of a shaft."""
 
-    Attributes
-    ----------
-    restitution
-        Speed on leaving the onset over that on arriving [1]; 0 if the shaft sticks.
-    peak_force
-        Largest contact force [N].
-    least_separation
-        Smallest gap between the mean planes [m].
-    """
-
-    restitution: float
-    peak_force: float
-    least_separation: float
+    restitution: float  #: Speed on leaving the onset over that on arriving [1]; 0 if the shaft sticks.
+    peak_force: float  #: Largest contact force [N].
+    least_separation: float  #: Smallest gap between the mean planes [m].
 
 
 def drop(joint: BushingJoint, *, mass: float, speed: float) -> Drop:

@@ -14,21 +14,11 @@ from tribodyn.joints.shapes.cylinder import Cylinder
 
 @dataclass(frozen=True)
 class Casing:
-    """Casing of a sleeve.
+    """Casing of a sleeve."""
 
-    Attributes
-    ----------
-    strain
-        Free thermal strain ε_c of the casing [1].
-    thickness
-        Of the sleeve, t [m].
-    poisson_ratio
-        Of the sleeve, ν [1].
-    """
-
-    strain: float
-    thickness: float
-    poisson_ratio: float
+    strain: float  #: Free thermal strain ε_c of the casing [1].
+    thickness: float  #: Of the sleeve, t [m].
+    poisson_ratio: float  #: Of the sleeve, ν [1].
 
 
 def clearance_rates(geometry: Cylinder, casing: Casing | None) -> dict[str, float]:

@@ -7,10 +7,9 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.shapes import Guide, Slot
 
-FlatWalls: TypeAlias = Guide | Slot
-"""Shapes with flat walls."""
+FlatWalls: TypeAlias = Guide | Slot  #: Shapes with flat walls.
+#: Distance of a point beyond the walls, over the clearance: loads so much smaller than others do not move.
 _FAR: Final = 1.0e3
-"""Distance of a point beyond the walls, over the clearance: loads so much smaller than others do not move."""
 
 
 def resting(shape: FlatWalls, loads: FloatArray) -> FloatArray:

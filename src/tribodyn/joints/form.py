@@ -13,19 +13,12 @@ from tribodyn.core.splines import gauss_legendre_between
 
 @dataclass(frozen=True)
 class Bore:
-    """Measured form of a bushing.
+    """Measured form of a bushing."""
 
-    Attributes
-    ----------
-    angles, positions
-        Where it was measured [rad, m], increasing; once around.
-    values
-        Deviation of the bore's radius [m], more where it is wider, angle by angle.
-    """
-
+    #: Where it was measured [rad, m], increasing; once around.
     angles: Sequence[float]
     positions: Sequence[float]
-    values: Sequence[float]
+    values: Sequence[float]  #: Deviation of the bore's radius [m], more where it is wider, angle by angle.
 
     def deviation(self, theta: FloatArray, z: FloatArray) -> FloatArray:
         """Return the deviation at angles and heights, shape (n_z, n_theta).
@@ -45,25 +38,15 @@ class Bore:
 
 @dataclass(frozen=True)
 class Form:
-    """Additional gap; of crown and chamfers there is nothing in the middle.
+    """Additional gap; of crown and chamfers there is nothing in the middle."""
 
-    Attributes
-    ----------
-    crown
-        Drop of a parabola at the ends against the middle [m].
-    chamfer_length, chamfer_depth
-        Straight run-out at both ends: how far it reaches inwards, and how deep it is at the end [m].
-    bore
-        Measured form of the bushing; none by default.
-    profile
-        Measured deviation of the trunnion's radius over the height [m], the same all around, since it turns
-        in the bushing; none by default.
-    """
-
-    crown: float = 0.0
+    crown: float = 0.0  #: Drop of a parabola at the ends against the middle [m].
+    #: Straight run-out at both ends: how far it reaches inwards, and how deep it is at the end [m].
     chamfer_length: float = 0.0
     chamfer_depth: float = 0.0
-    bore: Bore | None = None
+    bore: Bore | None = None  #: Measured form of the bushing; none by default.
+    #: Measured deviation of the trunnion's radius over the height [m], the same all around, since it turns in
+    #: the bushing; none by default.
     profile: Signal | None = None
 
     def measured(self, theta: FloatArray, z: FloatArray) -> FloatArray:

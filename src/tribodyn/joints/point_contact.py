@@ -28,12 +28,10 @@ from tribodyn.core.remembered import ContactTable
 from tribodyn.joints.shapes.surface import Points
 
 INTERVALS: Final = 4096
-_ITERATIONS: Final = 8
-"""Far from the branch point at −1/e: the argument is above −2/e²."""
+_ITERATIONS: Final = 8  #: Far from the branch point at −1/e: the argument is above −2/e².
 
 
-Curve = tuple[FloatArray, FloatArray]
-"""Force of the whole bushing [N] and its slope [N/m] over penetration."""
+Curve = tuple[FloatArray, FloatArray]  #: Force of the whole bushing [N] and its slope [N/m] over penetration.
 
 
 def lankarani_nikravesh(depth: FloatArray, modulus: float, cylinders: Points) -> Curve:
@@ -73,8 +71,7 @@ POINT_CONTACTS: dict[str, Callable[[FloatArray, float, Points], Curve]] = {
     "point-johnson": johnson,
 }
 SURFACE: Final = "surface"
-CONTACTS: Final = (SURFACE, *POINT_CONTACTS)
-"""Kinds of contact between a trunnion and its bushing."""
+CONTACTS: Final = (SURFACE, *POINT_CONTACTS)  #: Kinds of contact between a trunnion and its bushing.
 
 
 # Runs that differ in a clearance or a load share a table, which takes a twentieth of a run.

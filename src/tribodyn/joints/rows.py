@@ -15,14 +15,12 @@ from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.lanes import WIDTH
 
 AROUND: Final = 4.4
-ALONG: Final = 1.1
-"""Groups of nodes around and along for c = σ."""
-GROUP: Final = 4
-"""Kernels take so many nodes at once."""
+ALONG: Final = 1.1  #: Groups of nodes around and along for c = σ.
+GROUP: Final = 4  #: Kernels take so many nodes at once.
+#: Around and along, however narrow the clearance is: wear and measured forms have shapes of their own.
 FEWEST: Final = (64, 16)
-"""Around and along, however narrow the clearance is: wear and measured forms have shapes of their own."""
+#: Around and along, however wide the clearance is; a run says if its grid is too coarse.
 MOST: Final = (512, 128)
-"""Around and along, however wide the clearance is; a run says if its grid is too coarse."""
 
 
 def resolving(clearance: float, roughness: float) -> tuple[int, int]:
@@ -38,15 +36,12 @@ def resolving(clearance: float, roughness: float) -> tuple[int, int]:
     return min(max(around, FEWEST[0]), MOST[0]), min(max(along, FEWEST[1]), MOST[1])
 
 
-OUT_OF_REACH: Final = 1.0e3
-"""Lift of a repeated node of a ring [m]."""
+OUT_OF_REACH: Final = 1.0e3  #: Lift of a repeated node of a ring [m].
+#: Distance by which a node may miss its ring [m], and errors of its normal and its relative area [1].
 CLOSE: Final = 1.0e-12
-"""Distance by which a node may miss its ring [m], and errors of its normal and its relative area [1]."""
-_KEPT: Final = 8
-"""Numbers of nodes whose rings are kept."""
+_KEPT: Final = 8  #: Numbers of nodes whose rings are kept.
 
-Rows = NDArray[np.void]
-"""Records :data:`~tribodyn.kernels.joints.surface.data.Row`."""
+Rows = NDArray[np.void]  #: Records :data:`~tribodyn.kernels.joints.surface.data.Row`.
 
 
 def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:

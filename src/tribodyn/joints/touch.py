@@ -10,42 +10,22 @@ from tribodyn.core.remembered import ContactTable
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.kernels.lookup import pressure_and_damping
 
-_EDGE = 0.01
-"""Share of the largest pressure at which a contact ends."""
+_EDGE = 0.01  #: Share of the largest pressure at which a contact ends.
 
 
 @dataclass(frozen=True)
 class Touch:
-    """Two surfaces of a joint.
+    """Two surfaces of a joint."""
 
-    Attributes
-    ----------
-    roughness
-        Combined rms roughness σ [m].
-    table
-        Tabulated contact law, or the force of a point contact.
-    contact
-        One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
-    liner
-        What the asperities stand on, which the table allows for; None where that is rigid.
-    clearance
-        Radial clearance [m]; NaN for surfaces that do not curve round each other.
-    bore_radius
-        Radius of the bore or race [m]; NaN likewise.
-    bulk
-        Elastic bodies under the asperities, in the place of a liner.
-    size
-        Half the width of a surface that does not curve [m].
-    """
-
-    roughness: float
-    table: ContactTable
-    contact: str
+    roughness: float  #: Combined rms roughness σ [m].
+    table: ContactTable  #: Tabulated contact law, or the force of a point contact.
+    contact: str  #: One of :data:`~tribodyn.joints.point_contact.CONTACTS`.
+    #: What the asperities stand on, which the table allows for; None where that is rigid.
     liner: Liner | None
-    clearance: float
-    bore_radius: float
-    bulk: Bulk | None = None
-    size: float = math.nan
+    clearance: float  #: Radial clearance [m]; NaN for surfaces that do not curve round each other.
+    bore_radius: float  #: Radius of the bore or race [m]; NaN likewise.
+    bulk: Bulk | None = None  #: Elastic bodies under the asperities, in the place of a liner.
+    size: float = math.nan  #: Half the width of a surface that does not curve [m].
 
     @property
     def over_surface(self) -> bool:

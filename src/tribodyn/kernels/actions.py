@@ -15,31 +15,23 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.jit import entry, kernel
 
-ROUNDING: Final = 1.0e-11
-"""Share of a period before its end that counts as the beginning of the next."""
+ROUNDING: Final = 1.0e-11  #: Share of a period before its end that counts as the beginning of the next.
+#: Pieces of a polynomial, a sine beside it (amplitude, angular frequency, phase), and where the pieces begin
+#: and after what distance they repeat; 0 for pieces that do not.
 Signal: Final = record_type(
     ("first", "i8"), ("n", "i8"), ("sine", "f8", (3,)), ("begin", "f8"), ("period", "f8")
 )
-"""Pieces of a polynomial, a sine beside it (amplitude, angular frequency, phase), and where the pieces begin
-and after what distance they repeat; 0 for pieces that do not."""
+#: A polynomial over the distance from ``left``, rising powers, up to ``until``.
 Piece: Final = record_type(("until", "f8"), ("left", "f8"), ("c", "f8", (5,)))
-"""A polynomial over the distance from ``left``, rising powers, up to ``until``."""
 
 
 class Signals(NamedTuple):
-    """Signals of drives and loads.
+    """Signals of drives and loads."""
 
-    Attributes
-    ----------
-    signals, pieces
-        Records named above.
-    kinks
-        Times at which a table of time has a kink [s].
-    """
-
+    #: Records named above.
     signals: Annotated[Record, Signal, 1]
     pieces: Annotated[Record, Piece, 1]
-    kinks: FloatArray
+    kinks: FloatArray  #: Times at which a table of time has a kink [s].
 
 
 @entry
@@ -72,39 +64,29 @@ def evaluate(signals: Signals, number: int, x: float, within: float) -> tuple[fl
     return value, rate, second
 
 
-NONE: Final = -1
-"""Number of a signal that is not there."""
-N_FACTORS: Final = 3
-"""Signals of a term at most."""
+NONE: Final = -1  #: Number of a signal that is not there.
+N_FACTORS: Final = 3  #: Signals of a term at most.
 N_OVER: Final = 5
-TIME: Final = 0
-"""Number of quantities that signals may follow at most; the first is time."""
+TIME: Final = 0  #: Number of quantities that signals may follow at most; the first is time.
 
+#: A term of a load: the component that it adds to, numbers of its signals (``NONE`` after the last) and of
+#: the quantities that they follow, and 1 where it opposes the motion.
 Term: Final = record_type(
     ("target", "i8"), ("signals", "i8", (N_FACTORS,)), ("over", "i8", (N_FACTORS,)), ("against", "i8")
 )
-"""A term of a load: the component that it adds to, numbers of its signals (``NONE`` after the last) and of
-the quantities that they follow, and 1 where it opposes the motion."""
 
+#: A part of a run without kinks: when it begins [s], the direction of motion (1, -1, or 0 at rest), and where
+#: each coordinate stays.
 Segment: Final = record_type(
     ("begin", "f8"), ("direction", "f8"), ("low", "f8", (N_OVER,)), ("high", "f8", (N_OVER,))
 )
-"""A part of a run without kinks: when it begins [s], the direction of motion (1, -1, or 0 at rest), and where
-each coordinate stays."""
 
 
 class Actions(NamedTuple):
-    """Drives and loads of a mechanism.
+    """Drives and loads of a mechanism."""
 
-    Attributes
-    ----------
-    signals
-        All of them.
-    terms, segments
-        Records named above, the latter in the order of time; one segment at least.
-    """
-
-    signals: Signals
+    signals: Signals  #: All of them.
+    #: Records named above, the latter in the order of time; one segment at least.
     terms: Annotated[Record, Term, 1]
     segments: Annotated[Record, Segment, 1]
 

@@ -7,13 +7,13 @@ from mebdf.compiled.kernel import UNCOMPILED, decorators
 from mebdf.compiled.library import Sources, library
 from mebdf.kernels.jit import SOURCES as SOLVER
 
+#: Sources of the machine code: kernels, their imports from outside their package, and the solver.
 SOURCES: Final = Sources(
     Path(__file__).parents[1],
     ("kernels/**/*.py", "core/arrays.py", "core/quantities.py", "core/remembered.py"),
     listing=("tribodyn.kernels", "tribodyn.mechanism.elements"),
     below=(SOLVER,),
 )
-"""Sources of the machine code: kernels, their imports from outside their package, and the solver."""
 
 entry, kernel, inlined = decorators(SOURCES)
 

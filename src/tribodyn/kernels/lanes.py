@@ -15,8 +15,7 @@ import numpy as np
 from mebdf.compiled.kernel import UNCOMPILED, Instruction
 
 WIDTH: Final = 4
-ROW: Final = 8
-"""Numbers in a row of the array that ``rows`` reads."""
+ROW: Final = 8  #: Numbers in a row of the array that ``rows`` reads.
 
 
 def _either(name: str, uncompiled: Callable[..., Any]) -> Any:
@@ -36,36 +35,32 @@ def _table_rows(array: Any, numbers: Any) -> Any:
     return tuple(array.reshape(-1, ROW)[numbers].T)
 
 
+#: Return the four numbers of an array from ``place`` on.
 load: Final = _either("load", lambda array, place: array.reshape(-1)[place : place + WIDTH].copy())
-"""Return the four numbers of an array from ``place`` on."""
-store: Final = _either("store", _put)
-"""Write lanes into an array, from ``place`` on."""
-zeros: Final = _either("zeros", lambda: np.zeros(WIDTH))
-"""Return four zeros, with which sums begin."""
-spread: Final = _either("spread", lambda number: np.full(WIDTH, number))
-"""Return a number in all lanes."""
+store: Final = _either("store", _put)  #: Write lanes into an array, from ``place`` on.
+zeros: Final = _either("zeros", lambda: np.zeros(WIDTH))  #: Return four zeros, with which sums begin.
+spread: Final = _either("spread", lambda number: np.full(WIDTH, number))  #: Return a number in all lanes.
 square_root: Final = _either("square_root", np.sqrt)
 absolute: Final = _either("absolute", np.abs)
 floor: Final = _either("floor", np.floor)
 larger: Final = _either("larger", lambda a, b: np.maximum(a, b))
+#: Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none.
 smaller: Final = _either("smaller", lambda a, b: np.minimum(a, b))
-"""Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none."""
+#: Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number.
 above: Final = _either("above", lambda a, b, x, y: np.where(a > b, x, y))
-"""Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number."""
 store_places: Final = _either("store_places", _put)
 """Write whole numbers in lanes, none of them negative, into an array from ``place`` on, for what follows.
 
 Read from there they are at hand sooner than from lanes; the array says nothing else about them.
 """
+#: Return the entries of an array that the numbers name that ``store_places`` wrote into ``places``.
 entries_at: Final = _either("entries_at", lambda array, places, place: array[_named(places, place)])
-"""Return the entries of an array that the numbers name that ``store_places`` wrote into ``places``."""
+#: Return the result of ``rows`` for such numbers.
 rows_at: Final = _either("rows_at", lambda array, places, place: _table_rows(array, _named(places, place)))
-"""Return the result of ``rows`` for such numbers."""
-parts: Final = _either("parts", tuple)
-"""Return the four numbers."""
+parts: Final = _either("parts", tuple)  #: Return the four numbers.
+#: Return the sum of the lanes.
 total: Final = _either("total", lambda lanes: (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
-"""Return the sum of the lanes."""
+#: Return the sums of the lanes of four.
 totals: Final = _either("totals", lambda a, b, c, d: np.array([total(lanes) for lanes in (a, b, c, d)]))
-"""Return the sums of the lanes of four."""
+#: Return eight lanes: the columns of those four rows of a table of eight columns that ``numbers`` name.
 rows: Final = _either("rows", lambda array, numbers: _table_rows(array, numbers.astype(int)))
-"""Return eight lanes: the columns of those four rows of a table of eight columns that ``numbers`` name."""

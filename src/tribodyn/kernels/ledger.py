@@ -26,8 +26,7 @@ from tribodyn.kernels.jit import kernel
 
 NOW: Final = 0
 LAST: Final = 1
-EARLIER: Final = 2
-"""The present mark, the last one, and one before that."""
+EARLIER: Final = 2  #: The present mark, the last one, and one before that.
 POSITION: Final = 0
 SPEED: Final = 1
 MOMENTUM: Final = 2
@@ -35,8 +34,7 @@ SWING: Final = 0
 RATE: Final = 1
 NO_SWING: Final = -1
 
-NEAR: Final = 0.2
-"""Marks closer than this part of the next interval do not tell how the integrands bend."""
+NEAR: Final = 0.2  #: Marks closer than this part of the next interval do not tell how the integrands bend.
 
 
 def books_type(n_powers: int, n_forces: int, n: int) -> RecordType:

@@ -20,10 +20,9 @@ from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.ledger import EARLIER, LAST, NOW
 
 IMPACT: Final = 0
-OUTSIDE: Final = 1
-"""Parts of a stretch."""
+OUTSIDE: Final = 1  #: Parts of a stretch.
+#: Rise of a parabola through equal steps above its middle value, over the larger difference, at most.
 MOST_RISE: Final = 0.125
-"""Rise of a parabola through equal steps above its middle value, over the larger difference, at most."""
 
 Course: Final = record_type(
     ("times", "f8", (3,)),
@@ -36,29 +35,19 @@ Course: Final = record_type(
 
 
 class Peaks(NamedTuple):
-    """The largest values of ``n`` quantities in each stretch of a run.
+    """The largest values of ``n`` quantities in each stretch of a run."""
 
-    Attributes
-    ----------
-    course
-        Times of the three last marks [s], how many there are since the stretch began, its number, when it
-        began [s], how long impacts last after that [s], and how many of the quantities, the first ones, have
-        sharp peaks.
-    values
-        Of the quantities at the three marks, sizes that are not negative, shape (3, n). A mechanism enters
-        those at ``NOW`` before it calls :func:`begin` or :func:`note`.
-    largest
-        Largest values in the impacts and outside, shape (n_stretches, 2, n); NaN where there was none.
-    when
-        The times of these [s], same shape.
-    risen
-        Set to 1 where a sharp one is larger than before in its stretch, for whoever takes rows; shape (1,).
-    """
-
+    #: Times of the three last marks [s], how many there are since the stretch began, its number, when it
+    #: began [s], how long impacts last after that [s], and how many of the quantities, the first ones, have
+    #: sharp peaks.
     course: Annotated[Record, Course]
+    #: Of the quantities at the three marks, sizes that are not negative, shape (3, n). A mechanism enters
+    #: those at ``NOW`` before it calls :func:`begin` or :func:`note`.
     values: FloatMatrix
+    #: Largest values in the impacts and outside, shape (n_stretches, 2, n); NaN where there was none.
     largest: FloatCube
-    when: FloatCube
+    when: FloatCube  #: The times of these [s], same shape.
+    #: Set to 1 where a sharp one is larger than before in its stretch, for whoever takes rows; shape (1,).
     risen: FloatArray
 
 

@@ -14,38 +14,23 @@ from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.lubrication.oil_film import Film
 from tribodyn.lubrication.state import FilmState, film_state
 
-_DEEPEST: Final = 4.0
-"""Overlap of the mean planes over σ down to which a rough film has an answer."""
+_DEEPEST: Final = 4.0  #: Overlap of the mean planes over σ down to which a rough film has an answer.
+#: Distances that the search keeps from its start and from the ends of its range, over the clearance.
 _MARGIN: Final = 1.0e-6
-"""Distances that the search keeps from its start and from the ends of its range, over the clearance."""
+#: Cells that the film must have on either side of its thinnest place, up to twice its least thickness.
 _THIN_CELLS: Final = 2.0
-"""Cells that the film must have on either side of its thinnest place, up to twice its least thickness."""
-_SETTLED: Final = 1.0e-10
-"""Length of a step of Newton's that changes nothing any more, over the clearance."""
+_SETTLED: Final = 1.0e-10  #: Length of a step of Newton's that changes nothing any more, over the clearance.
 
 
 @dataclass(frozen=True)
 class FilmEquilibrium:
-    """A shaft that turns in its film about a resting axis, parallel to the bushing.
+    """A shaft that turns in its film about a resting axis, parallel to the bushing."""
 
-    Attributes
-    ----------
-    film
-        The film.
-    load
-        (W_x, W_y) on the shaft [N].
-    omega
-        Speed of the shaft [rad/s].
-    position
-        (e_x, e_y), the centre of the shaft from the axis of the bushing [m], shape (2,).
-    state
-        What the film does there: ``leakage``, ``pressure``, stiffness and damping in ``jacobian``, ....
-    """
-
-    film: Film
-    load: tuple[float, float]
-    omega: float
-    position: FloatArray
+    film: Film  #: The film.
+    load: tuple[float, float]  #: (W_x, W_y) on the shaft [N].
+    omega: float  #: Speed of the shaft [rad/s].
+    position: FloatArray  #: (e_x, e_y), the centre of the shaft from the axis of the bushing [m], shape (2,).
+    #: What the film does there: ``leakage``, ``pressure``, stiffness and damping in ``jacobian``, ....
     state: FilmState
 
     @property

@@ -39,17 +39,10 @@ from tribodyn.kernels.film.data import FlowTable
 
 @dataclass(frozen=True)
 class Roughness:
-    """Rms roughness and lay of shaft (surface 1, which moves) and bushing (surface 2).
+    """Rms roughness and lay of shaft (surface 1, which moves) and bushing (surface 2)."""
 
-    Attributes
-    ----------
-    rms
-        σ_1 and σ_2 [m]; both 0 for smooth surfaces.
-    peklenik
-        γ_1 and γ_2 [1]: correlation length along over across the sliding direction, 1 for isotropic surfaces.
-    """
-
-    rms: tuple[float, float] = (0.0, 0.0)
+    rms: tuple[float, float] = (0.0, 0.0)  #: σ_1 and σ_2 [m]; both 0 for smooth surfaces.
+    #: γ_1 and γ_2 [1]: correlation length along over across the sliding direction, 1 for isotropic surfaces.
     peklenik: tuple[float, float] = (1.0, 1.0)
 
     def __post_init__(self) -> None:
@@ -75,6 +68,7 @@ class Roughness:
 
 PEKLENIK: Final = (1 / 9, 1 / 6, 1 / 3, 1.0, 3.0, 6.0, 9.0)
 
+#: C, r and the least H of validity, one row a γ.
 PRESSURE: Final = (
     (1.48, 0.42, 1.0),
     (1.38, 0.42, 1.0),
@@ -84,8 +78,8 @@ PRESSURE: Final = (
     (0.520, 1.5, 0.5),
     (0.870, 1.5, 0.5),
 )
-"""C, r and the least H of validity, one row a γ."""
 
+#: A_1, α_1, α_2, α_3 and the published A_2, one row a γ.
 SHEAR: Final = (
     (2.046, 1.12, 0.78, 0.03, 1.856),
     (1.962, 1.08, 0.77, 0.03, 1.754),
@@ -95,10 +89,8 @@ SHEAR: Final = (
     (1.290, 0.62, 1.09, 0.08, 0.388),
     (1.011, 0.54, 1.07, 0.08, 0.295),
 )
-"""A_1, α_1, α_2, α_3 and the published A_2, one row a γ."""
 
-BRANCH: Final = 5.0
-"""H at which Φ_s changes its formula."""
+BRANCH: Final = 5.0  #: H at which Φ_s changes its formula.
 
 
 def pressure_factor(separation: FloatArray, peklenik: float) -> FloatArray:
@@ -140,8 +132,8 @@ def _between(rows: Callable[[FloatArray, int], FloatArray], h: FloatArray, pekle
     return (1.0 - share) * rows(h, row) + share * rows(h, row + 1)
 
 
+#: Even moments of the density (35/32)(1 − x²)³: φ_f in powers of 1/z², where the closed form cancels.
 _SERIES: Final = (1.0, 1 / 9, 1 / 33, 5 / 429)
-"""Even moments of the density (35/32)(1 − x²)³: φ_f in powers of 1/z², where the closed form cancels."""
 
 
 def couette_factor(separation: FloatArray) -> FloatArray:
@@ -175,8 +167,7 @@ def pressure_shear_factor(separation: FloatArray) -> FloatArray:
     return np.asarray(1.0 - 1.40 * portable.exp(-0.66 * np.asarray(separation, dtype=np.float64)))
 
 
-COEFFICIENTS: Final = (-0.6912, 0.782, -0.304, 0.0401)
-"""ln φ_c as a cubic of H = h/σ, 0 ≤ H < 3."""
+COEFFICIENTS: Final = (-0.6912, 0.782, -0.304, 0.0401)  #: ln φ_c as a cubic of H = h/σ, 0 ≤ H < 3.
 _INTERVALS: Final = 128
 
 
@@ -208,12 +199,9 @@ def mean_gap_nodes() -> tuple[FloatArray, FloatArray, FloatArray]:
     return h, h[-1] - above, contact_factor(h)
 
 
-_PER_UNIT: Final = 300
-"""Intervals per unit of 1/H; the formulas change at H = 5 and 3, which are nodes."""
-_LARGEST: Final = 2
-"""1/H at the least separation, H = 1/2."""
-_FAR: Final = 1e9
-"""H that stands for infinity at the first node."""
+_PER_UNIT: Final = 300  #: Intervals per unit of 1/H; the formulas change at H = 5 and 3, which are nodes.
+_LARGEST: Final = 2  #: 1/H at the least separation, H = 1/2.
+_FAR: Final = 1e9  #: H that stands for infinity at the first node.
 
 
 # Asked for whenever a mechanism is put together, which is several times in a run.

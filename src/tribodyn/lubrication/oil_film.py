@@ -31,16 +31,15 @@ from tribodyn.kernels.film.data import (
 )
 from tribodyn.lubrication.factors import Roughness, flow_table
 
+#: Cavitation models by name.
 CAVITATION: Final = {
     "reynolds": REYNOLDS,
     "half-sommerfeld": HALF_SOMMERFELD,
     "none": NO_CAVITATION,
     "jfo": JFO,
 }
-"""Cavitation models by name."""
 
-BOUNDARIES: Final = ("periodic", "groove")
-"""In θ: periodic, or p = 0 on the line of maximum gap."""
+BOUNDARIES: Final = ("periodic", "groove")  #: In θ: periodic, or p = 0 on the line of maximum gap.
 
 
 @dataclass(frozen=True)
@@ -60,32 +59,18 @@ class FilmGrid:
 
 @dataclass(frozen=True)
 class Film:
-    """A film of oil in a bushing.
+    """A film of oil in a bushing."""
 
-    Attributes
-    ----------
-    viscosity
-        η [Pa s].
-    clearance, radius, length
-        Radial clearance c, shaft radius r_j and length l_z [m].
-    roughness
-        Of both surfaces; smooth by default.
-    cavitation
-        A key of :data:`CAVITATION`. ``jfo`` conserves mass, and is for steady films with a groove.
-    boundary
-        One of :data:`BOUNDARIES`.
-    grid
-        Cells in θ and z.
-    """
-
-    viscosity: float
+    viscosity: float  #: η [Pa s].
+    #: Radial clearance c, shaft radius r_j and length l_z [m].
     clearance: float
     radius: float
     length: float
-    roughness: Roughness = field(default_factory=Roughness)
+    roughness: Roughness = field(default_factory=Roughness)  #: Of both surfaces; smooth by default.
+    #: A key of :data:`CAVITATION`. ``jfo`` conserves mass, and is for steady films with a groove.
     cavitation: str = "reynolds"
-    boundary: str = "periodic"
-    grid: FilmGrid = field(default_factory=FilmGrid)
+    boundary: str = "periodic"  #: One of :data:`BOUNDARIES`.
+    grid: FilmGrid = field(default_factory=FilmGrid)  #: Cells in θ and z.
 
     def __post_init__(self) -> None:
         """Refuse impossible films."""
@@ -213,8 +198,7 @@ def _system(n: int, m: int) -> BandSystem:
     )
 
 
-_NO_FILM: Final = Film(1.0, 1.0, 1.0, 1.0, grid=FilmGrid(8, 4))
-"""Gives the arrays of no film their shapes."""
+_NO_FILM: Final = Film(1.0, 1.0, 1.0, 1.0, grid=FilmGrid(8, 4))  #: Gives the arrays of no film their shapes.
 
 
 def stacked_data(films: Sequence[Film], wear: Sequence[FloatArray | None]) -> FilmData:

@@ -40,33 +40,16 @@ def explain(status: int) -> str:
 
 @dataclass(frozen=True)
 class FilmState:
-    """Forces and losses of a film at one state.
+    """Forces and losses of a film at one state."""
 
-    Attributes
-    ----------
-    force
-        (F_x, F_y) on the shaft [N].
-    moment
-        (M_x, M_y) on the shaft [N m], right- and left-handed.
-    torque
-        Fluid friction on the shaft about its axis [N m].
-    leakage
-        Volume that leaves both ends [m³/s].
-    attitude_angle
-        From the load that the film carries to the line of centres, in the direction of θ [rad].
-    pressure
-        At the nodes [Pa], shape (n_z + 1, n_theta).
-    jacobian
-        Derivatives of force, moment and torque in the eight states and ω, shape (5, 9).
-    """
-
-    force: tuple[float, float]
-    moment: tuple[float, float]
-    torque: float
-    leakage: float
+    force: tuple[float, float]  #: (F_x, F_y) on the shaft [N].
+    moment: tuple[float, float]  #: (M_x, M_y) on the shaft [N m], right- and left-handed.
+    torque: float  #: Fluid friction on the shaft about its axis [N m].
+    leakage: float  #: Volume that leaves both ends [m³/s].
+    #: From the load that the film carries to the line of centres, in the direction of θ [rad].
     attitude_angle: float
-    pressure: FloatArray
-    jacobian: FloatArray
+    pressure: FloatArray  #: At the nodes [Pa], shape (n_z + 1, n_theta).
+    jacobian: FloatArray  #: Derivatives of force, moment and torque in the eight states and ω, shape (5, 9).
 
 
 def film_state(

@@ -20,15 +20,9 @@ from tribodyn.mechanisms.output_numbers import BY_INSTANT, BY_OUTPUT
 
 @dataclass(frozen=True)
 class Template:
-    """A file of a mechanism.
+    """A file of a mechanism."""
 
-    Attributes
-    ----------
-    text
-        Its content.
-    """
-
-    text: str
+    text: str  #: Its content.
 
     @property
     def title(self) -> str:
@@ -67,12 +61,10 @@ def _files(folder: str) -> dict[str, Template]:
     return {file.name.removesuffix(".toml"): Template(file.read_text(encoding="utf-8")) for file in found}
 
 
-BUILT_IN: Final = _files("built_in")
-"""Cases that run by name."""
-TEMPLATES: Final = {**_files("templates"), **BUILT_IN}
-"""All files."""
+BUILT_IN: Final = _files("built_in")  #: Cases that run by name.
+TEMPLATES: Final = {**_files("templates"), **BUILT_IN}  #: All files.
+#: Those that the manual shows, by name.
 GALLERY: Final = {name: template for name, template in TEMPLATES.items() if template.question}
-"""Those that the manual shows, by name."""
 
 
 def _built_in() -> Iterator[tuple[str, BuiltIn]]:

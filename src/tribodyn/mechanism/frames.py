@@ -8,8 +8,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 
-GROUND: Final = "ground"
-"""Name of the body that never moves."""
+GROUND: Final = "ground"  #: Name of the body that never moves.
 
 
 def frame(axis: FloatArray, second: FloatArray) -> FloatArray:

@@ -32,36 +32,26 @@ _CAUSE: Final = (*TIME, "output", "joint", "cause")
 _MODE: Final = (*TIME, "mode")
 _RATIO: Final = (*TIME, "output", "drive")
 _QUATERNION: Final = ("entry",)
+#: Dimensions of a quantity by its number of components.
 _COMPONENTS: Final = {1: (), 3: _VECTOR, 4: _QUATERNION}
-"""Dimensions of a quantity by its number of components."""
 _MAP: Final = ("surface", "row", "column")
 
 
-BODIES: Final = names(BODY)
-"""Variables of each body."""
+BODIES: Final = names(BODY)  #: Variables of each body.
+#: Variables of each joint; the works of all couplings together are the energy balance of the whole.
 JOINTS: Final = tuple(name for name in names(COUPLING) if name != "joint_work")
-"""Variables of each joint; the works of all couplings together are the energy balance of the whole."""
+#: Those of its oil film, which results hold where a joint has one.
 OIL: Final = (*names(FILM), "film_power", "joint_film")
-"""Those of its oil film, which results hold where a joint has one."""
 
 
 @dataclass(frozen=True)
 class Observed:
-    """Rows of a run by the names of what they hold.
+    """Rows of a run by the names of what they hold."""
 
-    Attributes
-    ----------
-    whole
-        Of the mechanism, each of shape (n_t,).
-    bodies
-        Each of shape (n_t, n_bodies) or (n_t, n_bodies, size).
-    couplings
-        Of joints, springs and loads, in this order, each of shape (n_t, n_couplings) or
-        (n_t, n_couplings, size).
-    """
-
-    whole: Mapping[str, FloatArray]
-    bodies: Mapping[str, FloatArray]
+    whole: Mapping[str, FloatArray]  #: Of the mechanism, each of shape (n_t,).
+    bodies: Mapping[str, FloatArray]  #: Each of shape (n_t, n_bodies) or (n_t, n_bodies, size).
+    #: Of joints, springs and loads, in this order, each of shape (n_t, n_couplings) or (n_t, n_couplings,
+    #: size).
     couplings: Mapping[str, FloatArray]
 
 
@@ -100,14 +90,15 @@ def _variables(table: Table, part: str) -> dict[str, Variable]:
     return {q.name: Variable(q.unit, q.meaning, (*TIME, part, *_COMPONENTS[q.size])) for q in table}
 
 
+#: Force or moment of an element; see its kind for sign and place.
 OF_ELEMENTS: Final[dict[str, Variable]] = {
     "element_force": Variable("N", "force of an element, such as teeth, thread, rod, spring", _ELEMENT),
     "element_moment": Variable(
         "N m", "moment of an element: on the second wheel, pinion, nut, or body of the joint", _ELEMENT
     ),
 }
-"""Force or moment of an element; see its kind for sign and place."""
 
+#: Variables for comparison with the ideal motion.
 OF_OUTPUTS: Final[dict[str, Variable]] = {
     **OUTPUTS,
     "drive": Variable("", "name of the drive", ("drive",), named=True, names="drives"),
@@ -117,8 +108,8 @@ OF_OUTPUTS: Final[dict[str, Variable]] = {
     ),
     "output_ratio": Variable("1", "rate of the output for a unit rate of one drive, SI units", _RATIO),
 }
-"""Variables for comparison with the ideal motion."""
 
+#: Of small vibrations about positions at rest.
 OF_MODES: Final[dict[str, Variable]] = {
     "mode": Variable("", "number of the mode", ("mode",), named=True, parts="modes"),
     "natural_frequency": Variable("Hz", "natural frequency of the mode", _MODE),
@@ -135,16 +126,16 @@ OF_MODES: Final[dict[str, Variable]] = {
     ),
     "mode_share": Variable("1", "share of the body in the kinetic energy of the mode", (*_MODE, "body")),
 }
-"""Of small vibrations about positions at rest."""
 
+#: Numbers of each cycle that a wear campaign keeps.
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_roughness": Variable("m", "largest combined rms roughness of a joint in the cycle", JUMP),
     "wear_force_mean": Variable("N", "largest mean force in a joint with clearance", JUMP),
     **OUTPUTS_OF_CYCLE,
 }
-"""Numbers of each cycle that a wear campaign keeps."""
 
+#: By name.
 VARIABLES: Final[dict[str, Variable]] = {
     "body": Variable("", "name of the body", ("body",), named=True, names="bodies"),
     "joint": Variable("", "name of the joint", ("joint",), named=True, names="joints"),
@@ -222,4 +213,3 @@ VARIABLES: Final[dict[str, Variable]] = {
     "stage_depth": Variable("m", "wear depth, selected", (*STAGE, *_MAP)),
     **OF_CYCLE,
 }
-"""By name."""

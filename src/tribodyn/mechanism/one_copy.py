@@ -10,8 +10,7 @@ from tribodyn.cases.case import Case, demand, with_entries
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.model.patterns import PATTERN, SCATTER, parts_that_name, repeated
 
-_ROWS: Final = 120
-"""Rows of the tables of a carrier's motion."""
+_ROWS: Final = 120  #: Rows of the tables of a carrier's motion.
 
 
 def one_copy(case: Any, together: xr.Dataset, instants: Sequence[float]) -> Case:

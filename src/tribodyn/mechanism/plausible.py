@@ -15,13 +15,10 @@ from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanism.model.parts import JointKeys, SpringKeys
 from tribodyn.mechanism.run_keys import RunKeys
 
-_ROUNDED: Final = 1.0e-6
-"""Share of a cycle by which rounded periods may miss whole multiples."""
-_LIGHT: Final = 1.0e-6
-"""Mass over that of the heaviest body below which contacts are too fast for a run."""
+_ROUNDED: Final = 1.0e-6  #: Share of a cycle by which rounded periods may miss whole multiples.
+_LIGHT: Final = 1.0e-6  #: Mass over that of the heaviest body below which contacts are too fast for a run.
 _SAMPLES: Final = 1001
-_DEEP: Final = 1.0e-9
-"""Angle [rad] or displacement [m] past a stop that is rounding."""
+_DEEP: Final = 1.0e-9  #: Angle [rad] or displacement [m] past a stop that is rounding.
 
 
 class MechanismTables(Protocol):

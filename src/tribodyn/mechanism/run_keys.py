@@ -8,12 +8,9 @@ from tribodyn.cases.groups import GridKeys
 from tribodyn.cases.keys import ASSUMED
 from tribodyn.mechanisms.playback import EVEN
 
-ROWS: Final = 500
-"""Rows of a result for which no interval was given."""
-SMALL: Final = 32
-"""Joints of a model up to which results hold everything."""
-FEW_FRAMES: Final = 30
-"""Pressure fields of a cycle of a larger model."""
+ROWS: Final = 500  #: Rows of a result for which no interval was given.
+SMALL: Final = 32  #: Joints of a model up to which results hold everything.
+FEW_FRAMES: Final = 30  #: Pressure fields of a cycle of a larger model.
 
 
 class RunKeys(Group):

@@ -78,10 +78,9 @@ from tribodyn.mechanisms.self_checks import named, of_clearance, of_tables
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.results.dataset import CARRIED, NOT_KEPT
 
-_STATES: Final = 13
-"""Of a body."""
+_STATES: Final = 13  #: Of a body.
+#: Data computed once that do not depend on temperatures over time.
 _AS_DRAWN: Final = ("assembly", "maps", "outputs", "_starts")
-"""Data computed once that do not depend on temperatures over time."""
 
 
 @dataclass(frozen=True)
@@ -494,7 +493,7 @@ def observed_motion(found: Observed) -> Motion:
     return Motion(**{name: found.bodies[name] for name in MOTION})
 
 
+#: Quantities that reach the user under the names of the balance instead.
 _IN_BALANCE: Final = frozenset(term.row for term in TERMS.values())
-"""Quantities that reach the user under the names of the balance instead."""
 
 SYSTEM: Final = MechanismSystem

@@ -9,13 +9,12 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import ask
 from tribodyn.kernels import dense
 
+#: A step passes less than σ, and the way through the widest clearances is some hundreds of that.
 _MAX_ITERATIONS: Final = 4000
-"""A step passes less than σ, and the way through the widest clearances is some hundreds of that."""
-_CONVERGED: Final = 1.0e-13
-"""Length of a step that changes nothing any more [m]."""
+_CONVERGED: Final = 1.0e-13  #: Length of a step that changes nothing any more [m].
 
+#: Returns the generalised loads at an attitude, shape (n,), and their derivative, shape (n, n).
 Residual: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-"""Returns the generalised loads at an attitude, shape (n,), and their derivative, shape (n, n)."""
 
 
 def damped_newton(

@@ -23,8 +23,8 @@ from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.wear import resampled
 
+#: Observed quantities that reach the user under the names of the balance instead.
 _NOT_STORED: Final = ("work_", "heat_")
-"""Observed quantities that reach the user under the names of the balance instead."""
 _SAMPLES: Final = 24
 
 
@@ -54,25 +54,14 @@ class HasBushing(HasSurfacePair, Protocol):
 
 @dataclass(frozen=True)
 class Bearing:
-    """A shaft in a bore with its surfaces, apart from the mechanism around it.
+    """A shaft in a bore with its surfaces, apart from the mechanism around it."""
 
-    Attributes
-    ----------
-    contact, pair
-        Keys of its contact law, and the surfaces that the law takes.
-    geometry
-        Its dimensions at the temperatures of the run.
-    liner
-        Elastic sleeve of the bore; None where there is none.
-    friction
-        Its friction.
-    """
-
+    #: Keys of its contact law, and the surfaces that the law takes.
     contact: groups.Contact
     pair: SurfacePair
-    geometry: Cylinder
-    liner: Liner | None
-    friction: Friction
+    geometry: Cylinder  #: Its dimensions at the temperatures of the run.
+    liner: Liner | None  #: Elastic sleeve of the bore; None where there is none.
+    friction: Friction  #: Its friction.
 
 
 def bearings(case: HasBushing) -> dict[str, Bearing]:

@@ -24,8 +24,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 
+#: Packages whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases.
 FOLDERS: Final = {"mechanism": "tribodyn.mechanism", "journal": "tribodyn.presets.journal"}
-"""Packages whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases."""
 _GROUP: Final = "tribodyn.mechanisms"
 
 
@@ -117,8 +117,8 @@ class _BuiltIn(Mapping[str, BuiltIn]):
         return sum(len(mechanism.built_in) for mechanism in MECHANISMS.values())
 
 
+#: Every mechanism, by the kind of its cases: those registered by entry points, and our own.
 MECHANISMS: Final[Mapping[str, MechanismDescriptor]] = _Mechanisms()
-"""Every mechanism, by the kind of its cases: those registered by entry points, and our own."""
 
 
 def kinds() -> Mapping[str, type[Case]]:
@@ -209,8 +209,8 @@ class Described(Protocol):
         """Return the case."""
 
 
+#: A case, what describes one, the name of a built-in one, or the path of a file.
 AnyCase: TypeAlias = Case | Described | str | os.PathLike[str]
-"""A case, what describes one, the name of a built-in one, or the path of a file."""
 
 
 def case_of(given: AnyCase) -> Case:

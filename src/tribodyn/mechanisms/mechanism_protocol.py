@@ -39,25 +39,16 @@ WearRates: TypeAlias = tuple[float | FloatArray, float | FloatArray]
 
 @dataclass(frozen=True)
 class FinishedRun:
-    """A finished or interrupted integration on its way to a result.
+    """A finished or interrupted integration on its way to a result."""
 
-    Attributes
-    ----------
-    problem, solution
-        What was integrated, and what came of it.
-    cost
-        By the names of :class:`~tribodyn.core.problem.Statistics`; of a campaign that of all its cycles.
-    carried
-        Whether it went on from where another run ended.
-    hashes
-        Of its data and of its rows, by the names of attributes of a result; of a campaign those of the last
-        cycle.
-    """
-
+    #: What was integrated, and what came of it.
     problem: Problem
     solution: Solution
+    #: By the names of :class:`~tribodyn.core.problem.Statistics`; of a campaign that of all its cycles.
     cost: Mapping[str, float]
-    carried: bool = False
+    carried: bool = False  #: Whether it went on from where another run ended.
+    #: Of its data and of its rows, by the names of attributes of a result; of a campaign those of the last
+    #: cycle.
     hashes: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -72,26 +63,17 @@ class FinishedRun:
 
 @dataclass(frozen=True)
 class ResultPart:
-    """A part of a result: coordinates, columns, fields, attributes and warnings, by their names in it.
+    """A part of a result: coordinates, columns, fields, attributes and warnings, by their names in it."""
 
-    Attributes
-    ----------
-    coordinates, columns, fields
-        As :func:`tribodyn.results.build` takes them.
-    attributes
-        Facts about the run.
-    warnings, notes
-        What a user should know before trusting the numbers, and what to read them with; one sentence each.
-    failure
-        Why the run stopped before its end, if it did and the mechanism knows more than the integrator.
-    """
-
+    #: As :func:`tribodyn.results.build` takes them.
     coordinates: Mapping[str, ArrayLike] = field(default_factory=dict)
     columns: Mapping[str, FloatArray] = field(default_factory=dict)
     fields: Mapping[str, NDArray[np.floating[Any]]] = field(default_factory=dict)
-    attributes: Mapping[str, object] = field(default_factory=dict)
+    attributes: Mapping[str, object] = field(default_factory=dict)  #: Facts about the run.
+    #: What a user should know before trusting the numbers, and what to read them with; one sentence each.
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
+    #: Why the run stopped before its end, if it did and the mechanism knows more than the integrator.
     failure: str = ""
 
 
@@ -268,8 +250,8 @@ class WearingSystem(SimulatedSystem, Protocol):
         ...
 
 
+#: Returns a key result of the part with a name; the name of the number ends in that of the part.
 ByPart: TypeAlias = Callable[[str], KeyResult]
-"""Returns a key result of the part with a name; the name of the number ends in that of the part."""
 
 
 def plain(name: str) -> str:
@@ -283,53 +265,33 @@ class MechanismDescriptor:
 
     What compiles or draws stands in modules of the mechanism's folder that are imported when they are asked
     for: reading a case needs neither.
-
-    Attributes
-    ----------
-    folder
-        Dotted name of its folder.
-    views
-        That of the folder with its figures and sections, where it is another one.
-    case
-        Its case model.
-    built_in
-        Cases that can be run by name.
-    templates
-        Texts of case files that ``tribodyn new`` copies, by name.
-    variables
-        Quantities of its results beside those that every result has, by name.
-    key_results
-        Its key results by their names in ``summary.json``, in reading order.
-    key_numbers
-        Names of those that a reader wants first; ``*`` stands for any part of a name.
-    of_cycle
-        What its wear campaigns write down about each cycle, by name; empty where nothing wears.
-    by_part
-        Key results that each part has, by the table of the case that names these parts, such as
-        ``joints``, and then by name; see :class:`ByPart`.
-    controls
-        Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
-    parts
-        Tables that a user adds and removes on a page, such as ``joints.*``, with the keys that most of them
-        need.
-    bearings
-        The function that returns the shafts in bores of a case by the names of their joints, as
-        ``module:function``; empty where there are none.
     """
 
-    folder: str
-    case: type[Case]
-    built_in: Mapping[str, BuiltIn]
+    folder: str  #: Dotted name of its folder.
+    case: type[Case]  #: Its case model.
+    built_in: Mapping[str, BuiltIn]  #: Cases that can be run by name.
+    #: Quantities of its results beside those that every result has, by name.
     variables: Mapping[str, Variable]
+    #: Its key results by their names in ``summary.json``, in reading order.
     key_results: Mapping[str, KeyResult]
+    #: Names of those that a reader wants first; ``*`` stands for any part of a name.
     key_numbers: tuple[str, ...]
+    #: What its wear campaigns write down about each cycle, by name; empty where nothing wears.
     of_cycle: Mapping[str, Variable] = field(default_factory=dict)
+    #: Texts of case files that ``tribodyn new`` copies, by name.
     templates: Mapping[str, str] = field(default_factory=dict)
+    #: Key results that each part has, by the table of the case that names these parts, such as ``joints``,
+    #: and then by name; see :class:`ByPart`.
     by_part: Mapping[str, Mapping[str, ByPart]] = field(default_factory=dict)
+    #: Paths of the keys that a user turns first, the most important one first; ``*`` stands for any name.
     controls: tuple[str, ...] = ()
+    #: Tables that a user adds and removes on a page, such as ``joints.*``, with the keys that most of them
+    #: need.
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    #: The function that returns the shafts in bores of a case by the names of their joints, as
+    #: ``module:function``; empty where there are none.
     bearings: str = ""
-    views: str = ""
+    views: str = ""  #: That of the folder with its figures and sections, where it is another one.
 
     def bearings_of(self, case: Case) -> Mapping[str, Bearing]:
         """Return the shafts in bores of a case by the names of their joints."""

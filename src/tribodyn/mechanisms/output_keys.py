@@ -13,10 +13,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.mechanism_protocol import plain
 
 ANGLE_UNIT: Final = "deg"
+#: Reasons for the end of a wear campaign, in words, by their names in its history.
 ERROR_LIMIT_OF: Final = {"wear_error_share": "the error limit of an output"}
-"""Reasons for the end of a wear campaign, in words, by their names in its history."""
+#: Unit that stands in the name of an instant, with its SI value, by what is given.
 _SHOWN: Final = {"angle": (ANGLE_UNIT, np.pi / 180.0), "position": ("mm", 1e-3), "time": ("s", 1.0)}
-"""Unit that stands in the name of an instant, with its SI value, by what is given."""
 
 
 class InstantKeys(Group):
@@ -38,17 +38,11 @@ class InstantKeys(Group):
 
 
 class ErrorKeys(NamedGroup):
-    """Limits on the error of an output, whatever its quantity.
+    """Limits on the error of an output, whatever its quantity."""
 
-    Attributes
-    ----------
-    UNITS
-        SI unit of each quantity.
-    LIMITS
-        Key of the limit of an error by the quantity.
-    """
-
+    #: SI unit of each quantity.
     UNITS: ClassVar[Mapping[str, str]] = {"angle": "rad", "angular_velocity": "rad/s"}
+    #: Key of the limit of an error by the quantity.
     LIMITS: ClassVar[Mapping[str, str]] = {
         "angle": "angle_error_limit",
         "angular_velocity": "angular_velocity_error_limit",
@@ -88,21 +82,11 @@ class ErrorKeys(NamedGroup):
 
 @dataclass(frozen=True)
 class Instant:
-    """Place at which the error of an output is read.
+    """Place at which the error of an output is read."""
 
-    Attributes
-    ----------
-    output
-        Name of the output.
-    kind
-        ``angle`` or ``position`` of a drive, or ``time``.
-    value
-        (SI).
-    """
-
-    output: str
-    kind: str
-    value: float
+    output: str  #: Name of the output.
+    kind: str  #: ``angle`` or ``position`` of a drive, or ``time``.
+    value: float  #: (SI).
 
     @property
     def name(self) -> str:

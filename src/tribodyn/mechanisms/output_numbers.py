@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+#: Direction in which the drive passes, by the variable of the result; zero for both together.
 PASSES: Final = {"error_at": 0.0, "error_at_forward": 1.0, "error_at_backward": -1.0}
-"""Direction in which the drive passes, by the variable of the result; zero for both together."""
 _ROUNDING: Final = 1e-9
 _TURN: Final = 2.0 * math.pi
 
@@ -127,8 +127,7 @@ def _of_cycles(times: FloatArray, value: float, period: float) -> FloatArray:
     return np.asarray(found[(found >= times[0] - room) & (found <= times[-1] + room)])
 
 
-_AT_REST: Final = 1.0e-9
-"""Change of an ideal value in one step, over its range, that counts as zero."""
+_AT_REST: Final = 1.0e-9  #: Change of an ideal value in one step, over its range, that counts as zero.
 Reduction: TypeAlias = "Callable[[xr.Dataset, FloatArray], float]"
 
 
@@ -161,6 +160,7 @@ def _direction(sign: float) -> Reading:
     return read
 
 
+#: Parts of names of key results: errors in one direction of motion.
 DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
     "forward": ("mean, forward", "Mean error, with its sign, while the ideal value rises.", _direction(1.0)),
     "backward": (
@@ -169,7 +169,7 @@ DIRECTIONS: Final[dict[str, tuple[str, str, Reading]]] = {
         _direction(-1.0),
     ),
 }
-"""Parts of names of key results: errors in one direction of motion."""
+#: Parts of names of key results: statistics of an error over time.
 MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
     "sustained": (
         "sustained",
@@ -179,7 +179,6 @@ MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
     "max": ("peak", "Largest value at any time, impacts included.", lambda d, error: peak(settled(d, error))),
     "rms": ("rms", "Root mean square over time of the difference from the motion with ideal joints.", _rms),
 }
-"""Parts of names of key results: statistics of an error over time."""
 
 
 def number_of(dataset: xr.Dataset, output: str) -> int:
@@ -207,11 +206,11 @@ def _of_error(reduce: Reduction) -> Reading:
     return lambda dataset, output: reduce(dataset, column(dataset, "output_error")[:, output])
 
 
+#: All of them.
 READINGS: Final = {
     **{name: (label, meaning, _of_error(reduce)) for name, (label, meaning, reduce) in MEASURES.items()},
     **DIRECTIONS,
 }
-"""All of them."""
 
 
 def _of_limit(output: str) -> KeyResult:
@@ -239,20 +238,20 @@ def _life(output: str) -> KeyResult:
     return KeyResult("Life by error", "cycles", "Outputs", meaning, compute).of_part(output)
 
 
+#: Key results of each output, by what stands before its name.
 BY_OUTPUT: Final[dict[str, ByPart]] = {
     f"error_{measure}_{spelled}": partial(_made, measure, unit)
     for unit, (spelled, _, _) in ERROR_UNITS.items()
     for measure in READINGS
 } | {"error_of_limit_percent": _of_limit, "error_life_cycles": _life}
-"""Key results of each output, by what stands before its name."""
 
 
+#: Labels and meanings of errors at instants, by variable.
 _PASSES: Final = {
     "error_at": ("at the instant", "Mean error, with its sign, where the key `at` of the output reads it."),
     "error_at_forward": ("at the instant, forward", "The same while the drive runs forward."),
     "error_at_backward": ("at the instant, backward", "The same while the drive runs backward."),
 }
-"""Labels and meanings of errors at instants, by variable."""
 
 
 def _at(variable: str, unit: str, instant: str) -> KeyResult:
@@ -269,18 +268,16 @@ def _at(variable: str, unit: str, instant: str) -> KeyResult:
     return KeyResult(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)
 
 
+#: Key results of each instant, by what stands before its name.
 BY_INSTANT: Final[dict[str, ByPart]] = {
     f"{variable}_{spelled}": partial(_at, variable, unit)
     for unit, (spelled, _, _) in ERROR_UNITS.items()
     for variable in _PASSES
 }
-"""Key results of each instant, by what stands before its name."""
 
 
-_SOFT: Final = 1.0e-6
-"""Stiffness of a direction over the largest one that counts as zero."""
-_N_WAYS: Final = 6
-"""Translations and rotations of a shaft."""
+_SOFT: Final = 1.0e-6  #: Stiffness of a direction over the largest one that counts as zero.
+_N_WAYS: Final = 6  #: Translations and rotations of a shaft.
 
 
 def shaft_displacements(

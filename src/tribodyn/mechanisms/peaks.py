@@ -10,9 +10,9 @@ from tribodyn.core.quantities import Table, names
 from tribodyn.kernels.peaks import Peaks
 from tribodyn.results.variables import PARTS
 
+#: Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
+#: the drive, half its cycle; the rest is smooth motion.
 IMPACT_SHARE: Final = 0.1
-"""Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
-the drive, half its cycle; the rest is smooth motion."""
 
 
 def impact_time(period: float) -> float:

@@ -12,14 +12,10 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 
-EVEN: Final = 120
-"""Frames in a cycle, without those after reversals."""
-AFTER_REVERSAL: Final = 48
-"""Frames after each reversal, fewer where there are many."""
-MOST_CLOSE: Final = 960
-"""Of all such frames of a cycle."""
-_SAME: Final = 1.0e-9
-"""Times closer than this share of the run are the same time."""
+EVEN: Final = 120  #: Frames in a cycle, without those after reversals.
+AFTER_REVERSAL: Final = 48  #: Frames after each reversal, fewer where there are many.
+MOST_CLOSE: Final = 960  #: Of all such frames of a cycle.
+_SAME: Final = 1.0e-9  #: Times closer than this share of the run are the same time.
 
 
 def frame_times(

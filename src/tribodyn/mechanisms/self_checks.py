@@ -14,26 +14,24 @@ from tribodyn.mechanisms.peaks import impact_time
 
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005
+#: Peak pressure over hardness: a third of the hardness is about the yield stress of the bulk (D. Tabor, The
+#: hardness of metals, 1951).
 HARDNESS_LIMIT: Final = 1.0 / 3.0
-"""Peak pressure over hardness: a third of the hardness is about the yield stress of the bulk (D. Tabor, The
-hardness of metals, 1951)."""
+#: Real area of contact over the nominal one: beyond a few per cent asperities no longer deform one by one,
+#: which every law here takes for granted.
 AREA_LIMIT: Final = 0.1
-"""Real area of contact over the nominal one: beyond a few per cent asperities no longer deform one by one,
-which every law here takes for granted."""
+#: Radial clearance over the combined rms roughness σ: 3 σ hold all but a thousandth of the heights.
 ROUGH_LIMIT: Final = 3.0
-"""Radial clearance over the combined rms roughness σ: 3 σ hold all but a thousandth of the heights."""
-_DAMPING: Final = 0.05
-"""Share of the peak pressure that is damping; below it the grid hardly matters."""
-LIFT_OFF_LIMIT: Final = 0.001
-"""Share of a run without the thrust collar; below it is only noted."""
+_DAMPING: Final = 0.05  #: Share of the peak pressure that is damping; below it the grid hardly matters.
+LIFT_OFF_LIMIT: Final = 0.001  #: Share of a run without the thrust collar; below it is only noted.
 CLIP_LIMIT: Final = 0.02
 LINER_LIMIT: Final = 0.05
+#: Share of rejected steps among those tried; built-in cases and rough variations of them have 1 to 6 %.
 REJECTED_LIMIT: Final = 0.2
-"""Share of rejected steps among those tried; built-in cases and rough variations of them have 1 to 6 %."""
+#: Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones.
 RESTART_LIMIT: Final = 0.05
-"""Restarts over steps. The order grows step by step: twenty are few to get beyond the low ones."""
+#: Advice that closes energy balances: absolute tolerances alone hold small slips and long ringing.
 TIGHTEN: Final = "Tighten solver.rtol and all of solver.atol tenfold."
-"""Advice that closes energy balances: absolute tolerances alone hold small slips and long ringing."""
 
 
 def extremes(*records: Record) -> dict[str, float]:
@@ -41,11 +39,11 @@ def extremes(*records: Record) -> dict[str, float]:
     return {name: float(record[name]) for record in records for name in record.dtype.names}
 
 
+#: Why surfaces come closer than a contact law reaches, after what presses them together.
 TOO_CLOSE: Final = (
     "is too large for this law, or the grid too coarse for the edge of a tilted pin: more nodes along the "
     "axis show which"
 )
-"""Why surfaces come closer than a contact law reaches, after what presses them together."""
 
 
 def beyond_law(

@@ -16,39 +16,26 @@ from tribodyn.kernels.actions import Actions
 from tribodyn.kernels.arrays import new_records
 from tribodyn.mechanisms.signal_pieces import NO_KINKS, SignalList, pieces_of
 
-TIME: Final = 0
-"""The first of the coordinates that signals may follow."""
+TIME: Final = 0  #: The first of the coordinates that signals may follow.
+#: Steps in a wave of a load, at least: a longer step may see its zeros alone. What a wave lends a shaft and
+#: takes back is up to a hundred times what the contact turns into heat, so that a small delay of the steps
+#: would show in the balance.
 WAVE_STEPS: Final = 24
-"""Steps in a wave of a load, at least: a longer step may see its zeros alone. What a wave lends a shaft and
-takes back is up to a hundred times what the contact turns into heat, so that a small delay of the steps would
-show in the balance."""
-_SAME: Final = 1.0e-12
-"""Instants closer than this share of a run are one."""
-_BEFORE: Final = 1.0e-9
-"""Share of the way to a kink by which a segment ends before it."""
+_SAME: Final = 1.0e-12  #: Instants closer than this share of a run are one.
+_BEFORE: Final = 1.0e-9  #: Share of the way to a kink by which a segment ends before it.
 _BISECTIONS: Final = 60
 
+#: Signals that are multiplied, each with the number of the quantity that it follows.
 Factors: TypeAlias = tuple[tuple[Signal, int], ...]
-"""Signals that are multiplied, each with the number of the quantity that it follows."""
 
 
 @dataclass(frozen=True)
 class Term:
-    """A part of a load.
+    """A part of a load."""
 
-    Attributes
-    ----------
-    target
-        Number of the component that it adds to.
-    factors
-        Up to three signals.
-    against
-        Whether it opposes the motion.
-    """
-
-    target: int
-    factors: Factors
-    against: bool = False
+    target: int  #: Number of the component that it adds to.
+    factors: Factors  #: Up to three signals.
+    against: bool = False  #: Whether it opposes the motion.
 
 
 def kinks_over(terms: Iterable[Term], over: int, reached: FloatArray) -> FloatArray:
@@ -172,8 +159,8 @@ def _just_after(t: float, kinks: FloatArray) -> float:
     return float(0.5 * (t + later[0])) if later.size else t + 1.0
 
 
+#: Number and sign of the load that a component is: 0 to 2 of the force, 3 to 5 of the right-handed moment.
 Targets = Mapping[int, tuple[int, float]]
-"""Number and sign of the load that a component is: 0 to 2 of the force, 3 to 5 of the right-handed moment."""
 _LATERAL: Final = np.array([1.0, 1.0, 0.0] * 2)
 
 

@@ -13,30 +13,19 @@ from tribodyn.kernels import actions as kinds
 from tribodyn.kernels.arrays import new_records
 
 NO_KINKS: Final = np.empty(0)
-_SAME: Final = 1.0e-12
-"""Share of a time by which two instants may differ that are one but for rounding."""
+_SAME: Final = 1.0e-12  #: Share of a time by which two instants may differ that are one but for rounding.
 
 
 @dataclass(frozen=True)
 class Pieces:
-    """A signal between breaks.
+    """A signal between breaks."""
 
-    Attributes
-    ----------
-    until, left
-        Where each piece ends and what its polynomial is over the distance from, shape (n,).
-    polynomial
-        Rising powers, shape (n, 5).
-    sine
-        Amplitude, angular frequency and phase of a sine beside it.
-    period
-        Distance after which the pieces repeat, which begin at the first ``left``; zero for none.
-    """
-
+    #: Where each piece ends and what its polynomial is over the distance from, shape (n,).
     until: FloatArray
     left: FloatArray
-    polynomial: FloatArray
-    sine: tuple[float, float, float]
+    polynomial: FloatArray  #: Rising powers, shape (n, 5).
+    sine: tuple[float, float, float]  #: Amplitude, angular frequency and phase of a sine beside it.
+    #: Distance after which the pieces repeat, which begin at the first ``left``; zero for none.
     period: float = 0.0
 
 

@@ -7,14 +7,9 @@ from tribodyn.cases.joint_keys import Wear
 
 @dataclass(frozen=True)
 class Keys:
-    """Keys that reduce a part of the workload, as a message names them.
+    """Keys that reduce a part of the workload, as a message names them."""
 
-    Attributes
-    ----------
-    nodes, cells, length, samples, followed, cycles
-        Of the counts of :class:`Workload` with these names; ``length`` of the simulated time.
-    """
-
+    #: Of the counts of :class:`Workload` with these names; ``length`` of the simulated time.
     nodes: str = "solver.grid.theta or solver.grid.z"
     cells: str = "film.grid.theta or film.grid.z"
     length: str = "run.duration"
@@ -25,58 +20,27 @@ class Keys:
 
 @dataclass(frozen=True)
 class Workload:
-    """Counts of one run; floats, since a case may ask for more than an array could hold.
+    """Counts of one run; floats, since a case may ask for more than an array could hold."""
 
-    Attributes
-    ----------
-    steps
-        Accepted steps of one run, expected from its motion; see the mechanism's own ``workload.py``.
-    states
-        Number of states.
-    nodes
-        Nodes of all contact surfaces.
-    joints
-        Joints with clearance.
-    fields
-        Pressure fields kept.
-    samples
-        Samples at output times.
-    followed
-        Samples that follow the steps.
-    quantities
-        Numbers of a sample.
-    breaks
-        Times at which the integration restarts.
-    cells, band
-        Cells of an oil film, and how many of them its solution couples at once; none without oil.
-    mapped
-        Nodes of films in each field kept.
-    runs
-        How often the run is made: once, or for each simulated cycle of a wear campaign.
-    own_matrix
-        Whether the equations come with a sparse matrix that the solver of the case uses.
-    compiled
-        Whether the solver of the case runs in compiled code.
-    keys
-        What to change.
-    """
-
+    #: Accepted steps of one run, expected from its motion; see the mechanism's own ``workload.py``.
     steps: float
-    states: float
-    nodes: float
-    joints: float
-    fields: float
-    samples: float
-    followed: float
-    quantities: float
-    breaks: float = 0.0
+    states: float  #: Number of states.
+    nodes: float  #: Nodes of all contact surfaces.
+    joints: float  #: Joints with clearance.
+    fields: float  #: Pressure fields kept.
+    samples: float  #: Samples at output times.
+    followed: float  #: Samples that follow the steps.
+    quantities: float  #: Numbers of a sample.
+    breaks: float = 0.0  #: Times at which the integration restarts.
+    #: Cells of an oil film, and how many of them its solution couples at once; none without oil.
     cells: float = 0.0
     band: float = 0.0
-    mapped: float = 0.0
-    runs: float = 1.0
+    mapped: float = 0.0  #: Nodes of films in each field kept.
+    runs: float = 1.0  #: How often the run is made: once, or for each simulated cycle of a wear campaign.
+    #: Whether the equations come with a sparse matrix that the solver of the case uses.
     own_matrix: bool = True
-    compiled: bool = True
-    keys: Keys = field(default_factory=Keys)
+    compiled: bool = True  #: Whether the solver of the case runs in compiled code.
+    keys: Keys = field(default_factory=Keys)  #: What to change.
 
 
 def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float, rows: int) -> float:
@@ -107,9 +71,7 @@ def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float,
     return settling + 1.0 + min(float(wear.cycles), jumps + rows)
 
 
+#: Mean contact pressure over a slip of one radius per cycle [Pa], from wear campaigns of two mechanisms.
 _PRESSURE = 5.0e5
-"""Mean contact pressure over a slip of one radius per cycle [Pa], from wear campaigns of two mechanisms."""
-_SHARE_OF_JUMP = 0.4
-"""Mean gain of a jump over ``wear.jump_depth``, from the same."""
-_FIRST_JUMPS = 20.0
-"""Jumps until their length has grown to that."""
+_SHARE_OF_JUMP = 0.4  #: Mean gain of a jump over ``wear.jump_depth``, from the same.
+_FIRST_JUMPS = 20.0  #: Jumps until their length has grown to that.

@@ -22,8 +22,7 @@ from tribodyn.views.common import in_common, overlays
 from tribodyn.views.numbers import fitting, in_words, interval
 from tribodyn.views.section import Chapter
 
-MOST: Final = 6
-"""Points up to which their curves can be distinguished."""
+MOST: Final = 6  #: Points up to which their curves can be distinguished.
 LEAD: Final = "Press the name of a run below a plot to hide or show it."
 
 
@@ -61,59 +60,37 @@ def _name(axes: Sequence[ParallelAxis], number: int) -> str:
     return ", ".join(f"{axis.label}: {axis.texts[number]}" for axis in axes if axis.parameter)
 
 
+#: Groups of key results that are of each whole run; all others are of the stretch that the runs share.
 OF_RUN: Final = ("Wear", "Loss", "Trust", "Effort")
-"""Groups of key results that are of each whole run; all others are of the stretch that the runs share."""
+#: Names of such numbers in other groups, as those of joints.
 _OF_RUN: Final = re.compile(r"(^|_)(wear|life|heat)(_|$)")
-"""Names of such numbers in other groups, as those of joints."""
-_ALIKE: Final = 2.0
-"""Ratio of the cycles of two runs from which on it is named."""
-OF_FORCE: Final = ("Load", "Joints")
-"""Groups of key results that the error of the grid is of."""
+_ALIKE: Final = 2.0  #: Ratio of the cycles of two runs from which on it is named.
+OF_FORCE: Final = ("Load", "Joints")  #: Groups of key results that the error of the grid is of.
 NO_DIFFERENCE: Final = "no difference"
-NOTABLE: Final = 0.01
-"""Relative difference from the first run above which a number stands out."""
+NOTABLE: Final = 0.01  #: Relative difference from the first run above which a number stands out.
 
 
 @dataclass(frozen=True)
 class ComparedRun:
-    """A run to compare.
+    """A run to compare."""
 
-    Attributes
-    ----------
-    name
-        What it is called on the page.
-    dataset
-        Its result.
-    link
-        Address of its own report, empty where there is none.
-    """
-
-    name: str
-    dataset: xr.Dataset
-    link: str = ""
+    name: str  #: What it is called on the page.
+    dataset: xr.Dataset  #: Its result.
+    link: str = ""  #: Address of its own report, empty where there is none.
 
 
 @dataclass(frozen=True)
 class RunDifferences:
-    """Differences between runs; the others are compared with the first.
+    """Differences between runs; the others are compared with the first."""
 
-    Attributes
-    ----------
-    keys
-        Keys of the cases that are not the same in all runs: ``path`` and ``values``.
-    groups
-        Key results in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each
-        run, a cell of ``value``, ``change``, whether that is ``notable`` and the run ``doubtful``.
-    stretch
-        What numbers of the motion were taken from, in a sentence; empty where that is each whole run.
-    summaries
-        The numbers themselves, for each run.
-    """
-
+    #: Keys of the cases that are not the same in all runs: ``path`` and ``values``.
     keys: Sequence[Mapping[str, Any]]
+    #: Key results in groups: ``name`` and ``rows``, of which each has ``label``, ``unit`` and, for each run,
+    #: a cell of ``value``, ``change``, whether that is ``notable`` and the run ``doubtful``.
     groups: Sequence[Mapping[str, Any]]
+    #: What numbers of the motion were taken from, in a sentence; empty where that is each whole run.
     stretch: str
-    summaries: Sequence[Mapping[str, Any]]
+    summaries: Sequence[Mapping[str, Any]]  #: The numbers themselves, for each run.
 
 
 def differences(results: Sequence[xr.Dataset]) -> RunDifferences:

@@ -17,8 +17,7 @@ from tribodyn.views.section import Chapter, Section
 Shown = dict[str, Any]
 
 _LARGEST_PICTURE: Final = 100_000_000
-_COLOURS: Final = 256
-"""Colours of a picture, those of smoothed edges among them."""
+_COLOURS: Final = 256  #: Colours of a picture, those of smoothed edges among them.
 
 
 def chapters(

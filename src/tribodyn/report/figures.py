@@ -67,8 +67,7 @@ def draw_all(dataset: xr.Dataset, directory: str | Path, *, part: slice = slice(
     return written
 
 
-_PER_SECOND: Final = 20
-"""Frames in a second of film."""
+_PER_SECOND: Final = 20  #: Frames in a second of film.
 _LONGEST: Final = 120.0
 _DPI: Final = 100
 _WRITERS: Final = {".gif": "pillow", ".mp4": "ffmpeg"}

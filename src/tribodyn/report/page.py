@@ -25,10 +25,8 @@ from tribodyn.views.encode import inside_page
 from tribodyn.views.numbers import as_read, columns_of, fitting, in_words, interval
 from tribodyn.views.playback import clock
 
-FOLDER: Final = "assumptions"
-"""Folder beside a result in which its report looks for the sweep."""
-GROUPS: Final = ("Accuracy", "Load")
-"""Groups of key results that the report shows."""
+FOLDER: Final = "assumptions"  #: Folder beside a result in which its report looks for the sweep.
+GROUPS: Final = ("Accuracy", "Load")  #: Groups of key results that the report shows.
 
 
 def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict[str, Any] | None:
@@ -120,11 +118,10 @@ def _range(values: xr.DataArray) -> str:
 
 
 _FIRST_RESULTS: Final = 3
-_FIRST_WARNINGS: Final = 2
-"""Key results and warnings beside the moving mechanism; all others follow below."""
+_FIRST_WARNINGS: Final = 2  #: Key results and warnings beside the moving mechanism; all others follow below.
 
+#: A key result with ``label``, ``value``, ``unit``, ``meaning`` and whether it is ``assumed``.
 Number = dict[str, str | bool]
-"""A key result with ``label``, ``value``, ``unit``, ``meaning`` and whether it is ``assumed``."""
 _NO_CELL: Final = {"value": "–", "assumed": False}
 
 

@@ -22,30 +22,15 @@ _MOST_AT_FIRST: Final = 6
 
 @dataclass(frozen=True)
 class ParallelAxis:
-    """One axis.
+    """One axis."""
 
-    Attributes
-    ----------
-    name
-        Path of a parameter or name of a number.
-    label
-        What it is, with its unit.
-    values
-        Where each point lies, shape (n,): the value in that unit, or the number of the text.
-    texts
-        The values in words, of the points in their order.
-    categories
-        Texts of an axis without numbers, in order; empty where there are numbers.
-    parameter
-        Whether it is a parameter rather than a number that came out.
-    """
-
-    name: str
-    label: str
+    name: str  #: Path of a parameter or name of a number.
+    label: str  #: What it is, with its unit.
+    #: Where each point lies, shape (n,): the value in that unit, or the number of the text.
     values: FloatArray
-    texts: tuple[str, ...]
-    categories: tuple[str, ...]
-    parameter: bool
+    texts: tuple[str, ...]  #: The values in words, of the points in their order.
+    categories: tuple[str, ...]  #: Texts of an axis without numbers, in order; empty where there are numbers.
+    parameter: bool  #: Whether it is a parameter rather than a number that came out.
 
 
 def axes_of(dataset: xr.Dataset) -> list[ParallelAxis]:
@@ -87,24 +72,12 @@ def _number(dataset: xr.Dataset, name: str) -> ParallelAxis:
 
 @dataclass(frozen=True)
 class ParallelPoint:
-    """One point of a sweep.
+    """One point of a sweep."""
 
-    Attributes
-    ----------
-    name
-        Its folder below ``points/``.
-    failure
-        Why it has no numbers, empty where it has.
-    link
-        Address of its own report, empty where there is none.
-    doubtful
-        Why its numbers should not be used, empty where they can be.
-    """
-
-    name: str
-    failure: str
-    link: str
-    doubtful: str = ""
+    name: str  #: Its folder below ``points/``.
+    failure: str  #: Why it has no numbers, empty where it has.
+    link: str  #: Address of its own report, empty where there is none.
+    doubtful: str = ""  #: Why its numbers should not be used, empty where they can be.
 
 
 def points_of(dataset: xr.Dataset, folder: Path | None) -> list[ParallelPoint]:

@@ -10,8 +10,8 @@ from typing import Final
 
 from tribodyn.core.platforms import flush_folder
 
+#: Age [s] from which a temporary file is what a killed process left: none takes so long to write.
 _STALE: Final = 3600.0
-"""Age [s] from which a temporary file is what a killed process left: none takes so long to write."""
 
 
 @contextmanager

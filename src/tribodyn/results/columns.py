@@ -20,6 +20,7 @@ from tribodyn.core.quoting import as_given, meant
 if TYPE_CHECKING:
     import pandas as pd
 
+#: Groups of variables by their unit; outputs and motions of bodies have several.
 GROUPS: Final = {
     "outputs": "",
     "motion": "",
@@ -29,7 +30,6 @@ GROUPS: Final = {
     "energies": "J",
     "powers": "W",
 }
-"""Groups of variables by their unit; outputs and motions of bodies have several."""
 _OF: Final = {"outputs": "output", "motion": "body"}
 _POWER: Final = re.compile(r"([A-Za-z]+)-([0-9])")
 _DEGREE: Final = np.pi / 180.0

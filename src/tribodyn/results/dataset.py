@@ -23,29 +23,23 @@ TEXT: Final = "text"
 SIZE: Final = "finite number above zero"
 NUMBER: Final = "finite number"
 GAPS: Final = "finite number, or none (NaN)"
-OUTCOME: Final = "number"
-"""A number that may be missing (NaN) or beyond all bounds (infinite)."""
+OUTCOME: Final = "number"  #: A number that may be missing (NaN) or beyond all bounds (infinite).
 TEXTS: Final = "list of texts, as JSON"
 FACTS: Final = "table of numbers and texts, as JSON"
 
-CARRIED: Final = "carried on"
-"""The ``start`` of a run that continues from where another one ended."""
-SWEEP: Final = "sweep"
-"""The ``kind`` of a sweep; that of a run is the kind of its case."""
+CARRIED: Final = "carried on"  #: The ``start`` of a run that continues from where another one ended.
+SWEEP: Final = "sweep"  #: The ``kind`` of a sweep; that of a run is the kind of its case.
 
-DATA_HASH: Final = "data_sha256"
-"""SHA-256 of all that a run was computed from."""
-ROWS_HASH: Final = "rows_sha256"
-"""SHA-256 of its rows."""
+DATA_HASH: Final = "data_sha256"  #: SHA-256 of all that a run was computed from.
+ROWS_HASH: Final = "rows_sha256"  #: SHA-256 of its rows.
+#: Joints, as in names of numbers, whose wear rate nobody chose; an empty name for all.
 ASSUMED_WEAR: Final = "assumed_wear"
-"""Joints, as in names of numbers, whose wear rate nobody chose; an empty name for all."""
+#: Least and largest wear of equal joints over that at the rate, by joint and an empty name for all.
 WEAR_SCATTER: Final = ("wear_scatter_least", "wear_scatter_largest")
-"""Least and largest wear of equal joints over that at the rate, by joint and an empty name for all."""
-MODEL: Final = "model"
-"""The model file of the mechanism that a case of another kind stands for."""
-NOT_KEPT: Final = "not_kept"
-"""Names of variables that the case did not ask for."""
+MODEL: Final = "model"  #: The model file of the mechanism that a case of another kind stands for.
+NOT_KEPT: Final = "not_kept"  #: Names of variables that the case did not ask for.
 
+#: Attributes of a dataset by name.
 ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start", MODEL), TEXT),
     **dict.fromkeys(("clearance", "assembly_clearance", "joint_length", "cycle_period", "impact_time"), SIZE),
@@ -65,13 +59,12 @@ ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(WEAR_SCATTER, FACTS),
     NOT_KEPT: TEXTS,
 }
-"""Attributes of a dataset by name."""
 
+#: Attributes of a variable by name.
 VARIABLE_ATTRIBUTES: Final[dict[str, str]] = {
     **dict.fromkeys(("units", "long_name", "comment", "group", "shown_unit"), TEXT),
     "shown_scale": SIZE,
 }
-"""Attributes of a variable by name."""
 
 
 def build(

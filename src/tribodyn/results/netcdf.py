@@ -18,19 +18,17 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _ONE_AT_A_TIME: Final = threading.Lock()
+#: Stands behind the NetCDF file, before the checksum of all of it; what reads NetCDF does not look there.
 _MARK: Final = b"\ntribodyn crc32 "
-"""Stands behind the NetCDF file, before the checksum of all of it; what reads NetCDF does not look there."""
-_FIRST_ROOM: Final = 1024
-"""Initial size of a file in memory [bytes]; it grows."""
+_FIRST_ROOM: Final = 1024  #: Initial size of a file in memory [bytes]; it grows.
+#: Cache of an array that is written in one piece [bytes]; by default a copy of all arrays is kept.
 _CACHE: Final = 1
-"""Cache of an array that is written in one piece [bytes]; by default a copy of all arrays is kept."""
 _DIGITS: Final = 8
-_CHARACTER: Final = 4
-"""Bytes that a character of a text takes in an array."""
+_CHARACTER: Final = 4  #: Bytes that a character of a text takes in an array.
+#: Size up to which what a file declares need not be in it [bytes]; a run of two cycles takes 10 MB.
 MOST_COMPRESSED: Final = 64_000_000
-"""Size up to which what a file declares need not be in it [bytes]; a run of two cycles takes 10 MB."""
+#: So many texts a variable may have, as many as a sweep may have points; each takes 85 µs to look at.
 MOST_TEXTS: Final = 100_000
-"""So many texts a variable may have, as many as a sweep may have points; each takes 85 µs to look at."""
 
 
 def netcdf_content(dataset: xr.Dataset) -> bytes:

@@ -17,13 +17,12 @@ from tribodyn.results.dataset import CARRIED, json_attribute
 if TYPE_CHECKING:
     import xarray as xr
 
-SHORT: Final = 0.01
-"""Share of the time that impacts may last; a sustained maximum leaves it out."""
+SHORT: Final = 0.01  #: Share of the time that impacts may last; a sustained maximum leaves it out.
 _ROUNDING: Final = 1e-9
 
 _Read: TypeAlias = "dict[object, tuple[xr.Dataset, NDArray[Any]]]"
+#: Values read off results, by keys that hold as long as the results are held, too.
 _read: Final[ContextVar[_Read | None]] = ContextVar("_read", default=None)
-"""Values read off results, by keys that hold as long as the results are held, too."""
 
 
 @contextmanager

@@ -40,22 +40,15 @@ from tribodyn.results.variables import (
 if TYPE_CHECKING:
     import xarray as xr
 
-LARGEST: Final = 1e60
-"""Size of a number, at most: products and squares of numbers are numbers, too."""
-LONGEST: Final = 1_000_000
-"""Length of a text, at most."""
-LISTS: Final = ("warnings", "notes", "assumed")
-"""Keys of a summary that hold lists."""
-INTERVALS: Final = "intervals"
-"""Key of a summary that holds the ends of intervals, by key result."""
-MOST_VARIABLES: Final = 200
-"""Variables of a sweep, at most: each is drawn."""
-_ADDED: Final = ("doubtful",)
-"""Texts of points that sweeps of earlier versions lack."""
+LARGEST: Final = 1e60  #: Size of a number, at most: products and squares of numbers are numbers, too.
+LONGEST: Final = 1_000_000  #: Length of a text, at most.
+LISTS: Final = ("warnings", "notes", "assumed")  #: Keys of a summary that hold lists.
+INTERVALS: Final = "intervals"  #: Key of a summary that holds the ends of intervals, by key result.
+MOST_VARIABLES: Final = 200  #: Variables of a sweep, at most: each is drawn.
+_ADDED: Final = ("doubtful",)  #: Texts of points that sweeps of earlier versions lack.
 
 
-Kinds = Mapping[str, Mapping[str, Variable]]
-"""Content of the results of each kind beside the common one."""
+Kinds = Mapping[str, Mapping[str, Variable]]  #: Content of the results of each kind beside the common one.
 
 
 def check(dataset: xr.Dataset, kinds: Kinds) -> None:

@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     import xarray as xr
 
 RESULT: Final = "result.nc"
+#: Folder of a sweep that holds one folder for each point whose whole result is kept.
 POINTS: Final = "points"
-"""Folder of a sweep that holds one folder for each point whose whole result is kept."""
+#: Points of a sweep up to which each keeps its result and gets its report without being asked: 3 MB each.
 FEW_POINTS: Final = 24
-"""Points of a sweep up to which each keeps its result and gets its report without being asked: 3 MB each."""
 SUMMARY: Final = "summary.json"
 CASE: Final = "case.toml"
+#: Size of a result that is read, at most [bytes]: it is held in memory, several times over.
 LARGEST: Final = 4_000_000_000
-"""Size of a result that is read, at most [bytes]: it is held in memory, several times over."""
 
 
 def prepare_directory(directory: str | Path) -> Path:

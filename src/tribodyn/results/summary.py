@@ -19,44 +19,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class KeyResult:
-    """One key result.
+    """One key result."""
 
-    Attributes
-    ----------
-    label
-        What it is, for a table.
-    unit
-        Unit as printed.
-    group
-        What kind of question it answers.
-    meaning
-        Why an engineer cares, in a sentence.
-    compute
-        Returns the number, NaN or an error of lookup where the result does not hold it.
-    count
-        Whether it is a whole number.
-    digits
-        How many digits of it hold: neighbouring tolerances agree in them, or nearly.
-    over
-        Of a peak, the name of the key result that says in how much of the motion it was looked for.
-    span
-        That in words; a plural s follows them.
-    part
-        Of one of several parts, such as joints, its name.
-    column
-        Label without the name of the part: the heading of a column, where each part has a row.
-    """
-
-    label: str
-    unit: str
-    group: str
-    meaning: str
+    label: str  #: What it is, for a table.
+    unit: str  #: Unit as printed.
+    group: str  #: What kind of question it answers.
+    meaning: str  #: Why an engineer cares, in a sentence.
+    #: Returns the number, NaN or an error of lookup where the result does not hold it.
     compute: Callable[[xr.Dataset], float]
-    count: bool = False
-    digits: int = 3
+    count: bool = False  #: Whether it is a whole number.
+    digits: int = 3  #: How many digits of it hold: neighbouring tolerances agree in them, or nearly.
+    #: Of a peak, the name of the key result that says in how much of the motion it was looked for.
     over: str = ""
-    span: str = "after {} reversal"
-    part: str = ""
+    span: str = "after {} reversal"  #: That in words; a plural s follows them.
+    part: str = ""  #: Of one of several parts, such as joints, its name.
+    #: Label without the name of the part: the heading of a column, where each part has a row.
     column: str = ""
 
     def label_in(self, summary: Mapping[str, object]) -> str:
@@ -81,8 +58,8 @@ class KeyResult:
 
 
 Interval: TypeAlias = tuple[float, float]
+#: Key results and texts of a run, as in ``summary.json``.
 Summary: TypeAlias = dict[str, float | int | str | list[str] | dict[str, list[float]]]
-"""Key results and texts of a run, as in ``summary.json``."""
 
 
 class _Numbers(Summary):
@@ -108,6 +85,7 @@ def _real_time_factor(dataset: xr.Dataset) -> float:
     return float(time[-1] - time[0]) / statistic("wall_time")(dataset)
 
 
+#: Key results of every run, by name in ``summary.json``.
 EFFORT: Final[dict[str, KeyResult]] = {
     "simulated_time_s": KeyResult(
         "Simulated time",
@@ -139,16 +117,15 @@ EFFORT: Final[dict[str, KeyResult]] = {
         _real_time_factor,
     ),
 }
-"""Key results of every run, by name in ``summary.json``."""
 
 
+#: Names of wear rates and lives by wear.
 _OF_WEAR: Final = re.compile(r"wear_(depth_)?rate|(wear|bore|shaft)_life")
-"""Names of wear rates and lives by wear."""
 _LIFE: Final = re.compile(r"(wear|bore|shaft|error)_life_cycles")
+#: Beginnings of names of numbers that go with the inverse of the wear rate, and with the wear rate.
 _WORN: Final = re.compile(r"(partner_)?wear_(depth|rate)_|worn_volume_")
-"""Beginnings of names of numbers that go with the inverse of the wear rate, and with the wear rate."""
+#: Energy that a run misses, over the largest term of its balance, beyond which no number should be used.
 DOUBTFUL: Final = 0.05
-"""Energy that a run misses, over the largest term of its balance, beyond which no number should be used."""
 
 
 def warning(dataset: xr.Dataset) -> str:

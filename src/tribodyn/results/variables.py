@@ -21,36 +21,22 @@ JUMP: Final = ("jump",)
 FRAME: Final = ("frame",)
 REVERSAL: Final = ("reversal",)
 STAGE: Final = ("stage_cycles",)
+#: Dimensions along which a result may hold nothing: it ended before.
 EVENTS: Final = frozenset((*TIME, *SNAPSHOT, *JUMP, *FRAME, *REVERSAL, *STAGE))
-"""Dimensions along which a result may hold nothing: it ended before."""
 
 
 @dataclass(frozen=True)
 class Variable:
-    """Description of one variable for a reader.
+    """Description of one variable for a reader."""
 
-    Attributes
-    ----------
-    units
-        SI unit as a UDUNITS string, ``"1"`` for a ratio.
-    long_name
-        Plain words, used as axis label and in the documentation.
-    dims
-        Dimensions of the array.
-    named
-        Whether it holds names instead of numbers: what a dimension counts, such as bodies.
-    names
-        The names that it then must hold, or the table of the case that gives them; empty where any will do.
-    parts
-        What key results call the parts that it names, where that is no table of the case.
-    """
-
-    units: str
-    long_name: str
-    dims: tuple[str, ...] = TIME
+    units: str  #: SI unit as a UDUNITS string, ``"1"`` for a ratio.
+    long_name: str  #: Plain words, used as axis label and in the documentation.
+    dims: tuple[str, ...] = TIME  #: Dimensions of the array.
+    #: Whether it holds names instead of numbers: what a dimension counts, such as bodies.
     named: bool = False
+    #: The names that it then must hold, or the table of the case that gives them; empty where any will do.
     names: tuple[str, ...] | str = ()
-    parts: str = ""
+    parts: str = ""  #: What key results call the parts that it names, where that is no table of the case.
 
 
 COORDINATES: Final[dict[str, Variable]] = {
@@ -73,13 +59,14 @@ def described(*tables: Table) -> dict[str, Variable]:
     return {q.name: Variable(q.unit, q.meaning, q.dimensions) for table in tables for q in table}
 
 
+#: Motion of a shaft in its bushing, and what acts on it there.
 BUSHING: Final[dict[str, Variable]] = {
     **described(STATES, REPORTED),
     "F_dx": Variable("N", "damping part of the contact force along X"),
     "F_dy": Variable("N", "damping part of the contact force along Y"),
 }
-"""Motion of a shaft in its bushing, and what acts on it there."""
 
+#: Fields over the nodes of the bushing.
 FIELDS: Final[dict[str, Variable]] = {
     "pressure": Variable("Pa", "contact pressure", ("snapshot", "theta", "z")),
     "pressure_cycle": Variable("Pa", "contact pressure over one drive cycle", ("frame", "theta", "z")),
@@ -88,8 +75,8 @@ FIELDS: Final[dict[str, Variable]] = {
     ),
     "partner_wear_depth": Variable("m", "part of wear_depth worn off the partner", ("theta", "z")),
 }
-"""Fields over the nodes of the bushing."""
 
+#: Numbers of every wear campaign at its stops; a mechanism adds its own of each cycle.
 CAMPAIGN: Final[dict[str, Variable]] = {
     "wear_cycles": Variable("1", "drive cycles of wear at the stop", JUMP),
     "wear_jump_cycles": Variable("1", "cycles that the cycle simulated there stands for", JUMP),
@@ -101,30 +88,29 @@ CAMPAIGN: Final[dict[str, Variable]] = {
     ),
     "wear_energy_lost": Variable("J", "stored contact energy that the jump takes away", JUMP),
 }
-"""Numbers of every wear campaign at its stops; a mechanism adds its own of each cycle."""
 
+#: Worn profiles that are kept of a campaign.
 STAGES: Final[dict[str, Variable]] = {
     "stage_depth": Variable("m", "wear depth of the bushing, selected", (*STAGE, "theta", "z"))
 }
-"""Worn profiles that are kept of a campaign."""
 
+#: Every variable that mechanisms share, by name.
 VARIABLES: Final[dict[str, Variable]] = {**COORDINATES, **BUSHING, **FIELDS, **CAMPAIGN, **STAGES}
-"""Every variable that mechanisms share, by name."""
 
+#: Texts of a sweep on each of its points, with their meanings; all else it holds are numbers.
 POINT_TEXTS: Final[dict[str, str]] = {
     "failure": "why there are no numbers; empty where there are",
     "warnings": "what the run says about its own trustworthiness",
     "doubtful": "why the numbers should not be used; empty where they can be",
     "points": "name of the folder of the point below points/",
 }
-"""Texts of a sweep on each of its points, with their meanings; all else it holds are numbers."""
 
 
+#: Parts of the time from one reversal to the next, in the order of the kernels.
 PARTS: Final = {
     "impact": "in the impacts after the reversal",
     "outside": "from these impacts to the next reversal",
 }
-"""Parts of the time from one reversal to the next, in the order of the kernels."""
 
 
 def of_reversals_described(table: Table, part_of: tuple[str, ...] = ()) -> dict[str, Variable]:
@@ -145,31 +131,22 @@ _INSTANT: Final = ("instant",)
 
 
 class ErrorUnit(NamedTuple):
-    """A unit of errors.
+    """A unit of errors."""
 
-    Attributes
-    ----------
-    spelled
-        As names of key results have it.
-    shown
-        As people write it.
-    scale
-        How many of it are the SI unit.
-    """
-
-    spelled: str
-    shown: str
-    scale: float
+    spelled: str  #: As names of key results have it.
+    shown: str  #: As people write it.
+    scale: float  #: How many of it are the SI unit.
 
 
+#: By the SI unit of the output.
 ERROR_UNITS: Final = {
     "m": ErrorUnit("um", "µm", 1e6),
     "rad": ErrorUnit("deg", "°", 180.0 / math.pi),
     "m/s": ErrorUnit("mm_per_s", "mm/s", 1e3),
     "rad/s": ErrorUnit("deg_per_s", "°/s", 180.0 / math.pi),
 }
-"""By the SI unit of the output."""
 
+#: By name; an error in all directions is the length of a vector.
 OUTPUTS: Final[dict[str, Variable]] = {
     "output": Variable("", "name of the output", ("output",), named=True, names="outputs"),
     "output_unit": Variable("", "unit of the output", ("output",), named=True),
@@ -190,13 +167,12 @@ OUTPUTS: Final[dict[str, Variable]] = {
     ),
     "error_at_backward": Variable("1", "the same while the drive runs backward", _INSTANT),
 }
-"""By name; an error in all directions is the length of a vector."""
+#: Numbers of each cycle that a wear campaign keeps.
 OUTPUTS_OF_CYCLE: Final = {
     "wear_error_share": Variable(
         "1", "largest error of an output in the cycle over its limit; zero without limits", JUMP
     )
 }
-"""Numbers of each cycle that a wear campaign keeps."""
 
 _IN_THEIR_UNIT: Final = (
     "output_value",

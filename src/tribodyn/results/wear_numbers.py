@@ -16,10 +16,8 @@ from tribodyn.results.summary import KeyResult
 if TYPE_CHECKING:
     import xarray as xr
 
-Part: TypeAlias = Literal["both", "bore", "shaft"]
-"""Partners whose depth counts."""
-Surfaces: TypeAlias = NDArray[np.intp] | EllipsisType
-"""Numbers of surfaces, or all."""
+Part: TypeAlias = Literal["both", "bore", "shaft"]  #: Partners whose depth counts.
+Surfaces: TypeAlias = NDArray[np.intp] | EllipsisType  #: Numbers of surfaces, or all.
 _ROUNDING: Final = 1.0e-9
 
 
@@ -82,6 +80,7 @@ def _wear_rate(dataset: xr.Dataset) -> float:
     return peak(column(dataset, "wear_depth")) * 1e9 * 1000.0 / held if whole else math.nan
 
 
+#: By name, in reading order; the wear depth of the whole stands before them.
 WEAR_NUMBERS: Final[dict[str, KeyResult]] = {
     "partner_wear_depth_max_nm": KeyResult(
         "Wear depth of the partner",
@@ -143,4 +142,3 @@ WEAR_NUMBERS: Final[dict[str, KeyResult]] = {
         digits=1,
     ),
 }
-"""By name, in reading order; the wear depth of the whole stands before them."""

@@ -13,30 +13,20 @@ from tribodyn.joints.drop import design_speed, drop
 from tribodyn.joints.rows import resolving
 from tribodyn.mechanisms.bushing import Bearing
 
-_FINER: Final = 6
-"""Refinement of the grid around; along the axis nothing changes."""
+_FINER: Final = 6  #: Refinement of the grid around; along the axis nothing changes.
 
 
 @dataclass(frozen=True)
 class BounceRow:
-    """Restitution wanted and realised, of one law with one damping factor.
+    """Restitution wanted and realised, of one law with one damping factor."""
 
-    Attributes
-    ----------
-    law, factor
-        Their names.
-    wanted
-        Restitution given to the factor [1].
-    point
-        What one impact of a point gives, F = K δⁿ (1 + a δ̇/δ̇₋), or K δ + D δ̇ of ``kelvin-voigt`` [1].
-    plate, shaft
-        What a plate and a shaft give on these surfaces [1].
-    """
-
+    #: Their names.
     law: str
     factor: str
-    wanted: float
+    wanted: float  #: Restitution given to the factor [1].
+    #: What one impact of a point gives, F = K δⁿ (1 + a δ̇/δ̇₋), or K δ + D δ̇ of ``kelvin-voigt`` [1].
     point: float
+    #: What a plate and a shaft give on these surfaces [1].
     plate: float
     shaft: float
 

@@ -21,11 +21,10 @@ from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.results.variables import CAMPAIGN
 from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
 
+#: Columns over the stops of a campaign, by their names in the result, each of shape (n_jumps,).
 History = dict[str, FloatArray]
-"""Columns over the stops of a campaign, by their names in the result, each of shape (n_jumps,)."""
 
-MOST_STAGES: Final = 32
-"""Worn profiles that are kept of a campaign, however long it is."""
+MOST_STAGES: Final = 32  #: Worn profiles that are kept of a campaign, however long it is.
 
 
 def columns(of_cycle: Iterable[str]) -> tuple[str, ...]:
@@ -64,65 +63,33 @@ def thinned(cycles: FloatArray, depth: FloatArray) -> tuple[FloatArray, FloatArr
 
 @dataclass(frozen=True)
 class CampaignPlan:
-    """Request for a campaign.
+    """Request for a campaign."""
 
-    Attributes
-    ----------
-    cycles
-        Drive cycles to wear for.
-    settling
-        Cycles simulated before the first one whose wear counts.
-    feedback
-        Whether the worn shape changes the gap.
-    depth_limit
-        Depth at which the campaign ends [m]; infinite for none.
-    law, control
-        Wear law, and what chooses the length of jumps.
-    node_area
-        Area that each node stands for [m²], in the shape of the nodes; all fields below have it.
-    of_cycle
-        What is written down about the motion of each cycle, by name.
-    limits
-        Those of its entries that end the campaign, with the value at which they do.
-    changes
-        Cycles at which temperatures change, increasing: no jump passes one.
-    """
-
-    cycles: int
-    settling: int
-    feedback: bool
-    depth_limit: float
+    cycles: int  #: Drive cycles to wear for.
+    settling: int  #: Cycles simulated before the first one whose wear counts.
+    feedback: bool  #: Whether the worn shape changes the gap.
+    depth_limit: float  #: Depth at which the campaign ends [m]; infinite for none.
+    #: Wear law, and what chooses the length of jumps.
     law: Archard
     control: JumpControl
+    #: Area that each node stands for [m²], in the shape of the nodes; all fields below have it.
     node_area: FloatArray
-    of_cycle: tuple[str, ...]
+    of_cycle: tuple[str, ...]  #: What is written down about the motion of each cycle, by name.
+    #: Those of its entries that end the campaign, with the value at which they do.
     limits: Mapping[str, float] = field(default_factory=dict)
-    changes: tuple[int, ...] = ()
+    changes: tuple[int, ...] = ()  #: Cycles at which temperatures change, increasing: no jump passes one.
 
 
 @dataclass(frozen=True)
 class Cycle:
-    """One simulated cycle.
+    """One simulated cycle."""
 
-    Attributes
-    ----------
-    carried
-        State and memory of contact at its end.
-    sliding_load
-        ∫P_c |u| dt over the cycle at the nodes [N/m].
-    motion
-        Entries of the history that describe its motion; empty if it was not completed.
-    statistics
-        What it cost.
-    failure
-        Why it was not completed, if it was not.
-    """
-
-    carried: Carried
-    sliding_load: FloatArray
+    carried: Carried  #: State and memory of contact at its end.
+    sliding_load: FloatArray  #: ∫P_c |u| dt over the cycle at the nodes [N/m].
+    #: Entries of the history that describe its motion; empty if it was not completed.
     motion: dict[str, float]
-    statistics: Statistics
-    failure: str | None
+    statistics: Statistics  #: What it cost.
+    failure: str | None  #: Why it was not completed, if it was not.
 
 
 class Cycles(Protocol):
@@ -149,40 +116,19 @@ class Cycles(Protocol):
 
 @dataclass(frozen=True)
 class Campaign:
-    """A campaign between two simulated cycles.
+    """A campaign between two simulated cycles."""
 
-    Attributes
-    ----------
-    cycles
-        Cycles of wear behind.
-    depth
-        Wear depth at the nodes [m].
-    carried
-        Where the last simulated cycle ended; none before the first.
-    load
-        Its sliding load [N/m]; zero before the first stop.
-    gain
-        Depth that the last jump gained at its deepest, over the roughness.
-    life
-        Cycles after which a limit was reached; infinite if none was.
-    history
-        What was written down at the stops so far.
-    stage_cycles, stage_depth
-        Selected worn profiles [m] and their cycles, shapes (n,) and (n, ...).
-    statistics
-        Cost so far.
-    """
-
-    cycles: int
-    depth: FloatArray
-    carried: Carried | None
-    load: FloatArray
-    gain: float
-    life: float
-    history: History
+    cycles: int  #: Cycles of wear behind.
+    depth: FloatArray  #: Wear depth at the nodes [m].
+    carried: Carried | None  #: Where the last simulated cycle ended; none before the first.
+    load: FloatArray  #: Its sliding load [N/m]; zero before the first stop.
+    gain: float  #: Depth that the last jump gained at its deepest, over the roughness.
+    life: float  #: Cycles after which a limit was reached; infinite if none was.
+    history: History  #: What was written down at the stops so far.
+    #: Selected worn profiles [m] and their cycles, shapes (n,) and (n, ...).
     stage_cycles: FloatArray
     stage_depth: FloatArray
-    statistics: dict[str, float]
+    statistics: dict[str, float]  #: Cost so far.
 
 
 def run_campaign(

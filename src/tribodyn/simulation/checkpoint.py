@@ -21,8 +21,7 @@ from tribodyn.results.atomic import replacing
 from tribodyn.simulation.campaign import Campaign, columns
 
 FORMAT: Final = 2
-LARGEST: Final = 1_000_000_000
-"""Size of a checkpoint that is read, at most [bytes]."""
+LARGEST: Final = 1_000_000_000  #: Size of a checkpoint that is read, at most [bytes].
 _ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
 
 

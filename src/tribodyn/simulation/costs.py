@@ -15,25 +15,15 @@ from typing import Final, Self
 
 from tribodyn.mechanisms.workload import Workload
 
-MOST_MEMORY: Final = 2.0e9
-"""Memory above which a warning is given [B]."""
-MOST_TIME: Final = 3600.0
-"""Processor time above which a warning is given [s]."""
+MOST_MEMORY: Final = 2.0e9  #: Memory above which a warning is given [B].
+MOST_TIME: Final = 3600.0  #: Processor time above which a warning is given [s].
 
 
 class Coefficient(float):
-    """A coefficient of the estimate.
+    """A coefficient of the estimate."""
 
-    Attributes
-    ----------
-    unit
-        Its unit.
-    meaning
-        What it is multiplied by, and what the product is.
-    """
-
-    unit: str
-    meaning: str
+    unit: str  #: Its unit.
+    meaning: str  #: What it is multiplied by, and what the product is.
 
     def __new__(cls, value: float, unit: str, meaning: str) -> Self:
         """Return the number with what is known of it."""
@@ -75,6 +65,7 @@ _FILM_CELL: Final = Coefficient(2.0e-8, "s", "cell of an oil film in an evaluati
 _FILM_ENTRY: Final = Coefficient(3.0e-10, "s", "the same, times the square of the band")
 _FILM_START: Final = Coefficient(60.0, "1", "evaluations of a film for the equilibrium")
 
+#: All of them, by their symbols in the manual.
 COEFFICIENTS: Final[dict[str, Coefficient]] = {
     **{"m_p": PROGRAM, "m_n": _NODE, "m_f": _FIELD_NODE, "m_q": _NUMBER, "m_b": _BREAK},
     **{"m_c": _CELL, "m_w": _BAND, "m_s": _ASSEMBLY, "m_d": _DENSE},
@@ -83,7 +74,6 @@ COEFFICIENTS: Final[dict[str, Coefficient]] = {
     **{"t_p": _PYTHON_STEP, "t_d": _DENSE_CUBED, "t_r": _SAMPLE, "t_q": _SAMPLE_NUMBER},
     **{"t_f": _SAVED_NODE, "t_c": _FILM_CELL, "t_w": _FILM_ENTRY, "e_0": _FILM_START},
 }
-"""All of them, by their symbols in the manual."""
 
 
 @dataclass(frozen=True)
@@ -96,20 +86,11 @@ class Part:
 
 @dataclass(frozen=True)
 class Estimate:
-    """Expected time and memory of a run.
+    """Expected time and memory of a run."""
 
-    Attributes
-    ----------
-    memory
-        Peak memory of the process [B].
-    seconds
-        Processor time [s].
-    memory_key, time_key
-        Keys of the largest part of each.
-    """
-
-    memory: float
-    seconds: float
+    memory: float  #: Peak memory of the process [B].
+    seconds: float  #: Processor time [s].
+    #: Keys of the largest part of each.
     memory_key: str
     time_key: str
 

@@ -27,25 +27,18 @@ from tribodyn.simulation import session as hashes
 if TYPE_CHECKING:
     import xarray as xr
 
-Progress = Callable[[float], None] | None
-"""Called with the simulated time [s] after every accepted step."""
+Progress = Callable[[float], None] | None  #: Called with the simulated time [s] after every accepted step.
 
 
 @dataclass(frozen=True)
 class Session:
-    """A case, its mechanism and its system, with what watches over the run.
+    """A case, its mechanism and its system, with what watches over the run."""
 
-    Attributes
-    ----------
-    case, mechanism, system
-        What is simulated.
-    progress, stop
-        As for :func:`tribodyn.simulation.simulate`.
-    """
-
+    #: What is simulated.
     case: SystemCase
     mechanism: MechanismDescriptor
     system: SimulatedSystem
+    #: As for :func:`tribodyn.simulation.simulate`.
     progress: Progress = None
     stop: Stop = None
 

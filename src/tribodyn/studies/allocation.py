@@ -30,45 +30,29 @@ from tribodyn.studies.statistics import Share, share_of
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 from tribodyn.studies.tolerances import Tolerance, read_tolerances
 
+#: Probabilities for which the least cost is given beside the one asked for.
 FRONT: Final = (0.9, 0.95, 0.99, 0.997, 0.999)
-"""Probabilities for which the least cost is given beside the one asked for."""
-CHOSEN: Final = "chosen.toml"
-"""Case file of the choice."""
-_ROUNDS: Final = 3
-"""Times that the quadratics are made, with all that has been simulated."""
+CHOSEN: Final = "chosen.toml"  #: Case file of the choice.
+_ROUNDS: Final = 3  #: Times that the quadratics are made, with all that has been simulated.
 
 
 @dataclass(frozen=True)
 class Allocation:
-    """The cheapest tolerances, and what they rest on.
+    """The cheapest tolerances, and what they rest on."""
 
-    Attributes
-    ----------
-    limits, tolerances
-        What was asked.
-    chosen
-        The cheapest choice.
-    confirmed
-        Share of fresh simulations that keep all limits, with its interval.
-    contributions
-        Part of the variance of each limited number that each tolerance causes alone, shape (n_limits,
-        n_tolerances).
-    front
-        The cheapest choice for each of :data:`FRONT` that can be reached.
-    missed
-        Part of the spread of each number that its quadratic misses at points left out, shape (n_limits,).
-    simulations
-        How many there were.
-    """
-
+    #: What was asked.
     limits: tuple[Limit, ...]
     tolerances: tuple[Tolerance, ...]
-    chosen: Choice
-    confirmed: Share
+    chosen: Choice  #: The cheapest choice.
+    confirmed: Share  #: Share of fresh simulations that keep all limits, with its interval.
+    #: Part of the variance of each limited number that each tolerance causes alone, shape (n_limits,
+    #: n_tolerances).
     contributions: FloatArray
+    #: The cheapest choice for each of :data:`FRONT` that can be reached.
     front: tuple[tuple[float, Choice], ...]
+    #: Part of the spread of each number that its quadratic misses at points left out, shape (n_limits,).
     missed: FloatArray
-    simulations: int
+    simulations: int  #: How many there were.
 
 
 def allocate(

@@ -34,8 +34,7 @@ from tribodyn.studies.work import PointOutcome
 
 _LARGEST_SUMMARY: Final = 1_000_000
 _LARGEST_FILE: Final = 2_000_000_000
-LINES: Final = "points.jsonl"
-"""File with a line of JSON for each point: its name and its key results."""
+LINES: Final = "points.jsonl"  #: File with a line of JSON for each point: its name and its key results.
 
 
 class Archive:

@@ -30,52 +30,34 @@ from tribodyn.studies.plan import POINT, Axis, plan_of, varied_key
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.sweep import SILENT, Means, Watcher, compute_missing
 
-INSTANTS: Final = 48
-"""Instants of a cycle at which errors are kept."""
-LEVELS: Final = (0.5, 0.9, 0.99, 0.997)
-"""Shares of builds whose quantiles are given."""
-_BLOCK: Final = 400
-"""Builds that are drawn at once."""
+INSTANTS: Final = 48  #: Instants of a cycle at which errors are kept.
+LEVELS: Final = (0.5, 0.9, 0.99, 0.997)  #: Shares of builds whose quantiles are given.
+_BLOCK: Final = 400  #: Builds that are drawn at once.
+#: Times that the copies are drawn anew, with replacement, for the interval of a quantile.
 _REPLICATES: Final = 40
-"""Times that the copies are drawn anew, with replacement, for the interval of a quantile."""
 _SURE: Final = (0.025, 0.975)
 Law: TypeAlias = Callable[[np.random.Generator, int], FloatArray]
+#: Parts of the names of a build's numbers: largest difference of two copies, deviation, largest error.
 NUMBERS: Final = ("spread_max", "sigma", "error_max")
-"""Parts of the names of a build's numbers: largest difference of two copies, deviation, largest error."""
 
 
 @dataclass(frozen=True)
 class BuildNumber:
-    """A number over all builds.
+    """A number over all builds."""
 
-    Attributes
-    ----------
-    name
-        As key results have it, with its unit at the end.
-    mean, deviation
-        Over all builds drawn.
-    quantiles
-        Of :data:`LEVELS`, shape (n_levels,).
-    low, high
-        Ends of their 95 % intervals, for other copies as many as these.
-    drawn
-        The number of some of the builds, for a histogram.
-    together, same
-        Of builds simulated as a whole, and of the same copies alone; empty without such builds.
-    coupled
-        Quantiles that these builds let expect, shape (n_levels,); NaN without them.
-    """
-
-    name: str
+    name: str  #: As key results have it, with its unit at the end.
+    #: Over all builds drawn.
     mean: float
     deviation: float
-    quantiles: FloatArray
+    quantiles: FloatArray  #: Of :data:`LEVELS`, shape (n_levels,).
+    #: Ends of their 95 % intervals, for other copies as many as these.
     low: FloatArray
     high: FloatArray
-    drawn: FloatArray
+    drawn: FloatArray  #: The number of some of the builds, for a histogram.
+    #: Of builds simulated as a whole, and of the same copies alone; empty without such builds.
     together: FloatArray
     same: FloatArray
-    coupled: FloatArray
+    coupled: FloatArray  #: Quantiles that these builds let expect, shape (n_levels,); NaN without them.
 
     @property
     def correlation(self) -> float:
@@ -85,25 +67,16 @@ class BuildNumber:
 
 @dataclass(frozen=True)
 class Builds:
-    """Many builds of a machine.
+    """Many builds of a machine."""
 
-    Attributes
-    ----------
-    copies, of_build, draws
-        Copies simulated alone, copies of a build, and builds drawn.
-    numbers
-        One for each of :data:`NUMBERS`.
-    beyond
-        Share of builds beyond each limit by the name of its number, with its 95 % interval.
-    contributions
-        Share of the variance of the errors of copies that each scatter causes alone.
-    """
-
+    #: Copies simulated alone, copies of a build, and builds drawn.
     copies: int
     of_build: int
     draws: int
-    numbers: tuple[BuildNumber, ...]
+    numbers: tuple[BuildNumber, ...]  #: One for each of :data:`NUMBERS`.
+    #: Share of builds beyond each limit by the name of its number, with its 95 % interval.
     beyond: Mapping[str, tuple[float, float, float]]
+    #: Share of the variance of the errors of copies that each scatter causes alone.
     contributions: Mapping[str, float]
 
 

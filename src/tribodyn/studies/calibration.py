@@ -33,22 +33,18 @@ from tribodyn.studies.search import key_range
 from tribodyn.studies.variation import written
 
 EVALUATIONS: Final = "evaluations.jsonl"
-STEP: Final = 1e-2
-"""Step of the differences, as a share of the range: large against the error of a run."""
+STEP: Final = 1e-2  #: Step of the differences, as a share of the range: large against the error of a run.
 COARSE: Final = 1e-3
-FINE: Final = 1e-6
-"""Relative change of the cost at which the starts and the last fit end."""
+FINE: Final = 1e-6  #: Relative change of the cost at which the starts and the last fit end.
+#: Degrees of freedom below which residuals are too few for their scatter and for a robust loss.
 _FEW: Final = 8
-"""Degrees of freedom below which residuals are too few for their scatter and for a robust loss."""
-_GAUSSIAN: Final = 1.4826
-"""Standard deviation over the median of magnitudes, for normal residuals."""
+_GAUSSIAN: Final = 1.4826  #: Standard deviation over the median of magnitudes, for normal residuals.
 _NEAR: Final = 0.1
+#: Accuracy of the end of a profile interval, as a share of its width, and largest number of steps to it.
 _TRIALS: Final = 5
-"""Accuracy of the end of a profile interval, as a share of its width, and largest number of steps to it."""
+#: Points whose cost is compared, over the number of starts that are made from the best of them.
 _SCREENED: Final = 4
-"""Points whose cost is compared, over the number of starts that are made from the best of them."""
-_FAILED: Final = 1e3
-"""Residual of a run that fails."""
+_FAILED: Final = 1e3  #: Residual of a run that fails.
 
 
 @dataclass(frozen=True)
@@ -80,26 +76,15 @@ class VariedKey:
 
 @dataclass
 class Calibration:
-    """A fit under way.
+    """A fit under way."""
 
-    Attributes
-    ----------
-    case, keys, experiments
-        What is simulated, what is fitted, and to what: one run for each experiment.
-    noise
-        Standard uncertainty of each value, shape (n,).
-    directory
-        Where evaluations are kept; None keeps them in memory only.
-    note
-        Receives a line for each evaluation.
-    """
-
+    #: What is simulated, what is fitted, and to what: one run for each experiment.
     case: Case
     keys: Sequence[VariedKey]
     experiments: Sequence[Experiment]
-    noise: FloatArray
-    directory: Path | None = None
-    note: Callable[[str], None] = lambda text: None
+    noise: FloatArray  #: Standard uncertainty of each value, shape (n,).
+    directory: Path | None = None  #: Where evaluations are kept; None keeps them in memory only.
+    note: Callable[[str], None] = lambda text: None  #: Receives a line for each evaluation.
     known: dict[str, list[float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -18,50 +18,29 @@ from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.search import Limit
 from tribodyn.studies.tolerances import Tolerance
 
-_DRAWN: Final = 2**15
-"""Samples over which a probability is counted."""
-_MOST_TRIED: Final = 20_000
-"""Choices of steps that are tried."""
-_MISSED: Final = 0.3
-"""Largest part of a number's spread that its quadratic may miss at points left out."""
-_SAME: Final = 1e-12
-"""Relative difference below which costs are equal."""
+_DRAWN: Final = 2**15  #: Samples over which a probability is counted.
+_MOST_TRIED: Final = 20_000  #: Choices of steps that are tried.
+_MISSED: Final = 0.3  #: Largest part of a number's spread that its quadratic may miss at points left out.
+_SAME: Final = 1e-12  #: Relative difference below which costs are equal.
 
 
 @dataclass(frozen=True)
 class Choice:
-    """A width for each tolerance.
+    """A width for each tolerance."""
 
-    Attributes
-    ----------
-    labels, widths
-        As the file names them, and SI.
-    cost
-        Sum over all.
-    probability
-        Share of samples that keep all limits, by the quadratics.
-    """
-
+    #: As the file names them, and SI.
     labels: tuple[str, ...]
     widths: tuple[float, ...]
-    cost: float
-    probability: float
+    cost: float  #: Sum over all.
+    probability: float  #: Share of samples that keep all limits, by the quadratics.
 
 
 @dataclass(frozen=True)
 class Scattering:
-    """Keys that scatter by tolerances.
+    """Keys that scatter by tolerances."""
 
-    Attributes
-    ----------
-    tolerances
-        What scatters.
-    acts
-        Whether a tolerance acts on a key, shape (n_tolerances, n_keys).
-    """
-
-    tolerances: tuple[Tolerance, ...]
-    acts: FloatArray
+    tolerances: tuple[Tolerance, ...]  #: What scatters.
+    acts: FloatArray  #: Whether a tolerance acts on a key, shape (n_tolerances, n_keys).
 
     @property
     def span(self) -> FloatArray:

@@ -21,29 +21,19 @@ from tribodyn.studies.work import LISTEN, Finished, PointOutcome, SweepJob, bloc
 if TYPE_CHECKING:
     from distributed import Client, Future, Security
 
-_PATIENCE: Final = 15.0
-"""Time for which a scheduler may be out of reach [s]."""
+_PATIENCE: Final = 15.0  #: Time for which a scheduler may be out of reach [s].
 _GONE: Final = "the Dask scheduler is gone; all points that had finished are saved"
 _ENCRYPTED: Final = "tls://"
 
 
 @dataclass(frozen=True)
 class Tls:
-    """Files in PEM format by which a scheduler and this process know each other.
+    """Files in PEM format by which a scheduler and this process know each other."""
 
-    Attributes
-    ----------
-    ca
-        Certificate of the authority that the certificates of scheduler, workers and this process come from.
-    cert
-        Certificate of this process.
-    key
-        Its private key; None where ``cert`` holds it, too.
-    """
-
+    #: Certificate of the authority that the certificates of scheduler, workers and this process come from.
     ca: str | Path
-    cert: str | Path
-    key: str | Path | None = None
+    cert: str | Path  #: Certificate of this process.
+    key: str | Path | None = None  #: Its private key; None where ``cert`` holds it, too.
 
 
 def cluster(job: SweepJob, address: str, tls: Tls | None = None) -> Finished:

@@ -41,38 +41,19 @@ _SWITCH: Final = "joints.{}.clearance.ideal"
 
 @dataclass(frozen=True)
 class OutputShares:
-    """Parts of the error of an output.
+    """Parts of the error of an output."""
 
-    Attributes
-    ----------
-    output
-        Its name.
-    unit
-        Unit of the errors, as they are shown.
-    joints
-        Names of the joints with clearance.
-    alone
-        Root mean square error with each of these joints alone, in that unit, shape (n_joints,).
-    together
-        The same with all.
-    shares
-        Part of the mean square error that each joint causes [1], shape (n_joints,).
-    estimated
-        Root mean square error with all joints by superposition, in that unit; NaN where there is none.
-    estimate
-        Part of its mean square that each joint causes [1], shape (n_joints, n_causes).
-    causes
-        What that is divided into: clearance, tilt, friction; empty without an estimate.
-    """
-
-    output: str
-    unit: str
-    joints: tuple[str, ...]
+    output: str  #: Its name.
+    unit: str  #: Unit of the errors, as they are shown.
+    joints: tuple[str, ...]  #: Names of the joints with clearance.
+    #: Root mean square error with each of these joints alone, in that unit, shape (n_joints,).
     alone: FloatArray
-    together: float
-    shares: FloatArray
+    together: float  #: The same with all.
+    shares: FloatArray  #: Part of the mean square error that each joint causes [1], shape (n_joints,).
+    #: Root mean square error with all joints by superposition, in that unit; NaN where there is none.
     estimated: float
-    estimate: FloatArray
+    estimate: FloatArray  #: Part of its mean square that each joint causes [1], shape (n_joints, n_causes).
+    #: What that is divided into: clearance, tilt, friction; empty without an estimate.
     causes: tuple[str, ...]
 
     @property

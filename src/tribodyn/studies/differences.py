@@ -24,44 +24,25 @@ from tribodyn.studies.search import matching, no_run_has, read_number, readable
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 from tribodyn.studies.variation import SOURCE
 
-LADDER: Final = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2)
-"""Steps, as shares of a value."""
-AGREE: Final = 0.05
-"""Largest difference of slopes on a plateau, as a share of their median."""
-_AT_LEAST: Final = 3
-"""Steps of a plateau."""
-_NOTHING: Final = 1e-9
-"""Relative change of a number up to which a key has no effect."""
-DIGITS: Final = 9
-"""Digits of the values that are tried."""
+LADDER: Final = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2)  #: Steps, as shares of a value.
+AGREE: Final = 0.05  #: Largest difference of slopes on a plateau, as a share of their median.
+_AT_LEAST: Final = 3  #: Steps of a plateau.
+_NOTHING: Final = 1e-9  #: Relative change of a number up to which a key has no effect.
+DIGITS: Final = 9  #: Digits of the values that are tried.
 
 
 @dataclass(frozen=True)
 class Slope:
-    """Change of a number with a key.
+    """Change of a number with a key."""
 
-    Attributes
-    ----------
-    path, number
-        The key, and the name of the number in ``summary.json``.
-    value
-        Slope in the unit of the number over SI units of the key; NaN where steps do not agree.
-    spread
-        Largest difference from it on the plateau, in its unit.
-    steps
-        Steps of the plateau, in SI units of the key; empty where there is none.
-    tried
-        Slope at each step of the ladder, shape (n_steps,).
-    relative
-        Change of the number in per cent for a change of the key by one per cent; NaN where one of them is 0.
-    """
-
+    #: The key, and the name of the number in ``summary.json``.
     path: str
     number: str
-    value: float
-    spread: float
-    steps: tuple[float, ...]
-    tried: FloatArray
+    value: float  #: Slope in the unit of the number over SI units of the key; NaN where steps do not agree.
+    spread: float  #: Largest difference from it on the plateau, in its unit.
+    steps: tuple[float, ...]  #: Steps of the plateau, in SI units of the key; empty where there is none.
+    tried: FloatArray  #: Slope at each step of the ladder, shape (n_steps,).
+    #: Change of the number in per cent for a change of the key by one per cent; NaN where one of them is 0.
     relative: float
 
 

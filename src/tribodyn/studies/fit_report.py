@@ -23,28 +23,23 @@ RESIDUALS: Final = "residuals.csv"
 
 @dataclass(frozen=True)
 class FittedKey:
-    """A fitted key.
+    """A fitted key."""
 
-    Attributes
-    ----------
-    path, text
-        Its path, and the fitted value as in a case file.
-    value, deviation
-        Fitted value and standard deviation [SI].
-    interval, profile, posterior
-        95 % intervals by the covariance, by the profile of the cost and by the posterior distribution [SI];
-        None where they were left out.
-    scatter
-        The distribution as a sweep takes it.
-    """
-
+    #: Its path, and the fitted value as in a case file.
     path: str
     text: str
+    #: Fitted value and standard deviation [SI].
     value: float
     deviation: float
+    #: 95 % intervals by the covariance, by the profile of the cost and by the posterior distribution [SI];
+    #: None where they were left out.
     interval: tuple[float, float]
+    #: 95 % intervals by the covariance, by the profile of the cost and by the posterior distribution [SI];
+    #: None where they were left out.
     profile: tuple[float, float] | None
-    scatter: str
+    scatter: str  #: The distribution as a sweep takes it.
+    #: 95 % intervals by the covariance, by the profile of the cost and by the posterior distribution [SI];
+    #: None where they were left out.
     posterior: tuple[float, float] | None = None
 
     @property

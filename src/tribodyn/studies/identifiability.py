@@ -12,17 +12,13 @@ from tribodyn.results.columns import variable
 from tribodyn.studies.calibration import STEP, Calibration
 from tribodyn.studies.least_squares import LeastSquares
 
-TRADING: Final = 0.95
-"""Correlation from which on two keys trade off."""
-WIDE: Final = 0.5
-"""Half width of an interval over the range from which on a key is not determined."""
+TRADING: Final = 0.95  #: Correlation from which on two keys trade off.
+WIDE: Final = 0.5  #: Half width of an interval over the range from which on a key is not determined.
 _TIMES: Final = 50
-_NOISE: Final = 0.01
-"""Noise assumed of a further measurement, over its range."""
+_NOISE: Final = 0.01  #: Noise assumed of a further measurement, over its range.
+#: Range of a component, over that of all components of its variable, up to which it is taken for rounding.
 _ROUNDING: Final = 1e-6
-"""Range of a component, over that of all components of its variable, up to which it is taken for rounding."""
-_NOTHING: Final = 1e-15
-"""Range of any variable up to which it is taken for zero [SI]."""
+_NOTHING: Final = 1e-15  #: Range of any variable up to which it is taken for zero [SI].
 
 
 def statements(calibration: Calibration, found: LeastSquares) -> list[str]:

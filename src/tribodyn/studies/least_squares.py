@@ -16,22 +16,13 @@ CONFIDENCE: Final = 0.95
 
 @dataclass(frozen=True)
 class FitParameter:
-    """A parameter of a fit.
+    """A parameter of a fit."""
 
-    Attributes
-    ----------
-    name
-        Its name.
-    low, high
-        Bounds; starts are spread between them.
-    logarithmic
-        Whether starts are spread evenly in its logarithm.
-    """
-
-    name: str
+    name: str  #: Its name.
+    #: Bounds; starts are spread between them.
     low: float
     high: float
-    logarithmic: bool = False
+    logarithmic: bool = False  #: Whether starts are spread evenly in its logarithm.
 
     def at(self, share: float) -> float:
         """Return the value at a share of the range [1], 0 at the lower bound."""
@@ -42,31 +33,16 @@ class FitParameter:
 
 @dataclass(frozen=True)
 class LeastSquares:
-    """Fitted parameters.
+    """Fitted parameters."""
 
-    Attributes
-    ----------
-    parameters
-        What was fitted.
-    values
-        Fitted values, shape (n,).
-    residuals
-        Residuals there, over the uncertainty of the data, shape (m,).
-    jacobian
-        Derivatives of the residuals, shape (m, n); of a robust fit times √ψ', so that JᵀJ is the Hessian of
-        the cost.
-    cost
-        Half the sum of the losses.
-    loss
-        The loss.
-    """
-
-    parameters: tuple[FitParameter, ...]
-    values: FloatArray
-    residuals: FloatArray
+    parameters: tuple[FitParameter, ...]  #: What was fitted.
+    values: FloatArray  #: Fitted values, shape (n,).
+    residuals: FloatArray  #: Residuals there, over the uncertainty of the data, shape (m,).
+    #: Derivatives of the residuals, shape (m, n); of a robust fit times √ψ', so that JᵀJ is the Hessian of
+    #: the cost.
     jacobian: FloatArray
-    cost: float
-    loss: Loss = "linear"
+    cost: float  #: Half the sum of the losses.
+    loss: Loss = "linear"  #: The loss.
 
     @property
     def named(self) -> dict[str, float]:

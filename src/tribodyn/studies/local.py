@@ -24,12 +24,10 @@ from tribodyn.studies.work import (
     stop_while_preparing,
 )
 
-LOST: Final = failed(DIED, final=False)
-"""Outcome of a task whose worker died at every attempt."""
+LOST: Final = failed(DIED, final=False)  #: Outcome of a task whose worker died at every attempt.
+#: Handles of this process for a worker: the connection, and two that detect the end of either process.
 _HANDLES: Final = 3
-"""Handles of this process for a worker: the connection, and two that detect the end of either process."""
-_OTHER_HANDLES: Final = 16
-"""Handles that starting a process and writing files take temporarily."""
+_OTHER_HANDLES: Final = 16  #: Handles that starting a process and writing files take temporarily.
 
 
 def local(job: SweepJob, workers: int | None) -> Finished:

@@ -37,29 +37,17 @@ from tribodyn.views.events import impact_windows
 OPTION: Final = "--data"
 LARGEST: Final = 20_000_000
 QUANTITY: Final = "quantity"
-_PLAIN: Final = {"1": 1.0, "-": 1.0, "%": 0.01}
-"""Units of plain numbers."""
+_PLAIN: Final = {"1": 1.0, "-": 1.0, "%": 0.01}  #: Units of plain numbers.
 
 
 @dataclass(frozen=True)
 class MeasuredCurve:
-    """A measured curve over time.
+    """A measured curve over time."""
 
-    Attributes
-    ----------
-    name
-        Variable of a result, with labels after points.
-    unit
-        Unit in the file.
-    scale
-        SI value of that unit.
-    times, values
-        SI units, shape (n,).
-    """
-
-    name: str
-    unit: str
-    scale: float
+    name: str  #: Variable of a result, with labels after points.
+    unit: str  #: Unit in the file.
+    scale: float  #: SI value of that unit.
+    #: SI units, shape (n,).
     times: FloatArray
     values: FloatArray
 
@@ -100,18 +88,10 @@ class MeasuredNumber:
 
 @dataclass(frozen=True)
 class Measured:
-    """All measured data of a file.
+    """All measured data of a file."""
 
-    Attributes
-    ----------
-    parts
-        Curves, or numbers.
-    digest
-        SHA-256 of the file.
-    """
-
-    parts: tuple[MeasuredCurve | MeasuredNumber, ...]
-    digest: str
+    parts: tuple[MeasuredCurve | MeasuredNumber, ...]  #: Curves, or numbers.
+    digest: str  #: SHA-256 of the file.
 
     @property
     def values(self) -> FloatArray:
@@ -145,21 +125,12 @@ class Measured:
 
 @dataclass(frozen=True)
 class Experiment:
-    """A file of data and the run that it belongs to.
+    """A file of data and the run that it belongs to."""
 
-    Attributes
-    ----------
-    file
-        Name of the file.
-    settings
-        Keys of the case in which this run differs from the others, with their values as in a case file.
-    data
-        What was measured.
-    """
-
-    file: str
+    file: str  #: Name of the file.
+    #: Keys of the case in which this run differs from the others, with their values as in a case file.
     settings: Mapping[str, object]
-    data: Measured
+    data: Measured  #: What was measured.
 
 
 def read(path: str | Path, run: xr.Dataset) -> Measured:

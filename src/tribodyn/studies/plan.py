@@ -17,48 +17,26 @@ from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
 
 MOST_POINTS: Final = 100_000
-SENSITIVITY: Final = "saltelli"
-"""The sampler whose points give Sobol' indices."""
-POINT: Final = "point"
-"""Dimension of samples."""
+SENSITIVITY: Final = "saltelli"  #: The sampler whose points give Sobol' indices.
+POINT: Final = "point"  #: Dimension of samples.
 
 
 @dataclass(frozen=True)
 class Sampling:
-    """Sampling of distributions.
+    """Sampling of distributions."""
 
-    Attributes
-    ----------
-    samples
-        How many; None where nothing is drawn.
-    method
-        A key of :data:`~tribodyn.studies.sampling.SAMPLERS`.
-    seed
-        Equal seeds give equal samples.
-    """
-
-    samples: int | None = None
-    method: str = "lhs"
-    seed: int = 0
+    samples: int | None = None  #: How many; None where nothing is drawn.
+    method: str = "lhs"  #: A key of :data:`~tribodyn.studies.sampling.SAMPLERS`.
+    seed: int = 0  #: Equal seeds give equal samples.
 
 
 @dataclass(frozen=True)
 class Point:
-    """One simulation of a sweep.
+    """One simulation of a sweep."""
 
-    Attributes
-    ----------
-    changes
-        What differs from the base case, by dotted path, as a user writes it.
-    toml
-        The whole resolved case.
-    name
-        Hash of that case and of the version of tribodyn: equal names have equal results.
-    """
-
-    changes: Mapping[str, str]
-    toml: str = field(repr=False)
-    name: str
+    changes: Mapping[str, str]  #: What differs from the base case, by dotted path, as a user writes it.
+    toml: str = field(repr=False)  #: The whole resolved case.
+    name: str  #: Hash of that case and of the version of tribodyn: equal names have equal results.
 
     @property
     def label(self) -> str:
@@ -68,18 +46,10 @@ class Point:
 
 @dataclass(frozen=True)
 class Axis:
-    """A dimension of the sweep and the parameters that vary along it.
+    """A dimension of the sweep and the parameters that vary along it."""
 
-    Attributes
-    ----------
-    name
-        Dotted path of the parameter, or ``point`` for samples.
-    columns
-        Values of each parameter along the dimension, equally many.
-    """
-
-    name: str
-    columns: Mapping[Key, tuple[Value, ...]]
+    name: str  #: Dotted path of the parameter, or ``point`` for samples.
+    columns: Mapping[Key, tuple[Value, ...]]  #: Values of each parameter along the dimension, equally many.
 
     @property
     def size(self) -> int:
@@ -93,24 +63,12 @@ class Axis:
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """All points of a sweep.
+    """All points of a sweep."""
 
-    Attributes
-    ----------
-    case
-        What is swept.
-    axes
-        Dimensions, the samples last.
-    points
-        One for each combination, the last axis running fastest.
-    sampling
-        How samples were drawn.
-    """
-
-    case: Case
-    axes: tuple[Axis, ...]
-    points: tuple[Point, ...]
-    sampling: Sampling
+    case: Case  #: What is swept.
+    axes: tuple[Axis, ...]  #: Dimensions, the samples last.
+    points: tuple[Point, ...]  #: One for each combination, the last axis running fastest.
+    sampling: Sampling  #: How samples were drawn.
 
     @property
     def sampled(self) -> bool:

@@ -22,32 +22,20 @@ from tribodyn.studies.least_squares import CONFIDENCE, LeastSquares, cost_of
 OPTION: Final = "--posterior"
 LEAST_STEPS: Final = 10
 SAMPLES: Final = "posterior.csv"
+#: Steps over the autocorrelation time from which on the latter, and the quantiles, can be trusted.
 _LONG: Final = 50.0
-"""Steps over the autocorrelation time from which on the latter, and the quantiles, can be trusted."""
-_SPREAD: Final = 1e-3
-"""Least spread of the first walkers, as a share of the range."""
+_SPREAD: Final = 1e-3  #: Least spread of the first walkers, as a share of the range.
 
 
 @dataclass(frozen=True)
 class Posterior:
-    """Samples of a posterior distribution.
+    """Samples of a posterior distribution."""
 
-    Attributes
-    ----------
-    paths
-        Keys.
-    samples
-        Values of the keys [SI], shape (n_samples, n); the first half of the chain is left out.
-    correlation_time
-        Largest autocorrelation time of a key [steps].
-    steps
-        Steps of the chain.
-    """
-
-    paths: tuple[str, ...]
+    paths: tuple[str, ...]  #: Keys.
+    #: Values of the keys [SI], shape (n_samples, n); the first half of the chain is left out.
     samples: FloatArray
-    correlation_time: float
-    steps: int
+    correlation_time: float  #: Largest autocorrelation time of a key [steps].
+    steps: int  #: Steps of the chain.
 
     def interval(self, which: int) -> tuple[float, float]:
         """Return the central 95 % interval of a key [SI]."""

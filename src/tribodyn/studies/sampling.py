@@ -64,8 +64,8 @@ Takes the number of samples, of dimensions, and a seed; returns shape (samples, 
 """
 
 
+#: Least distance of a probability from 0 and 1, where an unbounded distribution is infinite.
 _EDGE: Final = 1e-12
-"""Least distance of a probability from 0 and 1, where an unbounded distribution is infinite."""
 
 
 class DistributionProblem(ValueError):
@@ -74,21 +74,11 @@ class DistributionProblem(ValueError):
 
 @dataclass(frozen=True)
 class Distribution:
-    """One family of distributions.
+    """One family of distributions."""
 
-    Attributes
-    ----------
-    arguments
-        Names of the arguments, in order.
-    optional
-        Names of further arguments, given all or not at all.
-    frozen
-        Returns the distribution with its arguments, as SciPy has it.
-    """
-
-    arguments: tuple[str, ...]
-    optional: tuple[str, ...]
-    frozen: Callable[..., Any]
+    arguments: tuple[str, ...]  #: Names of the arguments, in order.
+    optional: tuple[str, ...]  #: Names of further arguments, given all or not at all.
+    frozen: Callable[..., Any]  #: Returns the distribution with its arguments, as SciPy has it.
 
     @property
     def usage(self) -> str:
@@ -157,10 +147,10 @@ def _triangular(least: float, likeliest: float, most: float) -> Any:
     return stats.triang((likeliest - least) / (most - least), loc=least, scale=most - least)
 
 
+#: Every distribution by the name it has after ``--vary PATH=``.
 DISTRIBUTIONS: Final[dict[str, Distribution]] = {
     "normal": Distribution(("mean", "deviation"), ("least", "most"), _normal),
     "lognormal": Distribution(("mean", "deviation"), (), _lognormal),
     "uniform": Distribution(("least", "most"), (), _uniform),
     "triangular": Distribution(("least", "likeliest", "most"), (), _triangular),
 }
-"""Every distribution by the name it has after ``--vary PATH=``."""

@@ -26,35 +26,20 @@ from tribodyn.studies.plan import make_plan, varied_key
 from tribodyn.studies.sweep import Means, Watcher, run
 from tribodyn.studies.variation import SOURCE, written
 
-WITHIN: Final = 0.01
-"""Accuracy of the root, as a share of the range."""
+WITHIN: Final = 0.01  #: Accuracy of the root, as a share of the range.
+#: Digits of the values that are tried: a value that a person can read, and that reads back exactly.
 _DIGITS: Final = 5
-"""Digits of the values that are tried: a value that a person can read, and that reads back exactly."""
 
 
 @dataclass(frozen=True)
 class Limit:
-    """A key result and the value that it must reach, or not exceed.
+    """A key result and the value that it must reach, or not exceed."""
 
-    Attributes
-    ----------
-    name
-        Name in ``summary.json``.
-    value
-        In the unit of the number; a change in per cent where it is relative.
-    at_least
-        Whether the number must not be below it; else it must not be above it.
-    relative
-        Whether it is a change of the number of the case as it is.
-    others
-        Key results that have the words of the one asked for, too.
-    """
-
-    name: str
-    value: float
-    at_least: bool = False
-    relative: bool = False
-    others: tuple[str, ...] = ()
+    name: str  #: Name in ``summary.json``.
+    value: float  #: In the unit of the number; a change in per cent where it is relative.
+    at_least: bool = False  #: Whether the number must not be below it; else it must not be above it.
+    relative: bool = False  #: Whether it is a change of the number of the case as it is.
+    others: tuple[str, ...] = ()  #: Key results that have the words of the one asked for, too.
 
     @property
     def sign(self) -> str:
@@ -74,23 +59,15 @@ class Limit:
 
 @dataclass(frozen=True)
 class Question:
-    """Search for the value at which a number reaches its limit.
+    """Search for the value at which a number reaches its limit."""
 
-    Attributes
-    ----------
-    case, key
-        What is simulated, and which of its keys varies.
-    low, high
-        Ends of the range that is searched, SI.
-    until
-        The number and its limit.
-    """
-
+    #: What is simulated, and which of its keys varies.
     case: Case
     key: Key
+    #: Ends of the range that is searched, SI.
     low: float
     high: float
-    until: Limit
+    until: Limit  #: The number and its limit.
 
     @property
     def present(self) -> float:
@@ -112,24 +89,14 @@ class Question:
 
 @dataclass
 class Search:
-    """A question under way; everything tried is kept in a folder, from which a second search goes on.
+    """A question under way; everything tried is kept in a folder, from which a second search goes on."""
 
-    Attributes
-    ----------
-    question
-        What is asked.
-    directory
-        Where runs are kept, as by :func:`tribodyn.studies.run`.
-    means, watcher
-        As for a sweep.
-    tried
-        The number at each value of the parameter that was tried, SI.
-    """
-
-    question: Question
-    directory: Path
+    question: Question  #: What is asked.
+    directory: Path  #: Where runs are kept, as by :func:`tribodyn.studies.run`.
+    #: As for a sweep.
     means: Means
     watcher: Watcher
+    #: The number at each value of the parameter that was tried, SI.
     tried: dict[float, float] = field(default_factory=dict)
 
     @property
@@ -272,8 +239,8 @@ def find(
         return Search(asked, Path(directory or place), means, Watcher()).root(within)
 
 
+#: Places in which the names of key results are listed, in words.
 LISTED: Final = "`tribodyn run` writes those that a case has to summary.json."
-"""Places in which the names of key results are listed, in words."""
 
 
 def question(case: Case, vary: str, values: str, until: Limit) -> Question:

@@ -13,6 +13,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.studies.plan import POINT, SENSITIVITY
 
+#: Functions of the finite values of a key result, by name; ``p5`` is the fifth percentile.
 STATISTICS: Final[dict[str, Callable[[FloatArray], Any]]] = {
     "mean": np.mean,
     "deviation": lambda values: np.std(values, ddof=1) if values.size > 1 else np.nan,
@@ -20,10 +21,8 @@ STATISTICS: Final[dict[str, Callable[[FloatArray], Any]]] = {
     "median": np.median,
     "p95": lambda values: np.percentile(values, 95.0),
 }
-"""Functions of the finite values of a key result, by name; ``p5`` is the fifth percentile."""
 
-Statistics = dict[str, dict[str, float]]
-"""Statistics by name of the key result."""
+Statistics = dict[str, dict[str, float]]  #: Statistics by name of the key result.
 
 
 def statistics(dataset: xr.Dataset) -> list[tuple[dict[str, Any], Statistics]]:
@@ -62,19 +61,13 @@ def _all(part: xr.Dataset) -> Statistics:
 
 @dataclass(frozen=True)
 class Share:
-    """Share of points that keep a limit.
+    """Share of points that keep a limit."""
 
-    Attributes
-    ----------
-    within, points
-        How many keep it, and how many gave the number.
-    low, high
-        Between which shares that of the whole population lies, with 95 % confidence; NaN where nothing was
-        sampled.
-    """
-
+    #: How many keep it, and how many gave the number.
     within: int
     points: int
+    #: Between which shares that of the whole population lies, with 95 % confidence; NaN where nothing was
+    #: sampled.
     low: float
     high: float
 
@@ -118,20 +111,11 @@ def share_of(values: FloatArray, limit: float, sampled: bool) -> Share:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Share of a parameter in the variance of a number.
+    """Share of a parameter in the variance of a number."""
 
-    Attributes
-    ----------
-    first
-        Alone: first-order index of Sobol'.
-    total
-        With all its interactions: total index.
-    first_error, total_error
-        Half widths of their 95 % confidence intervals, by bootstrap.
-    """
-
-    first: float
-    total: float
+    first: float  #: Alone: first-order index of Sobol'.
+    total: float  #: With all its interactions: total index.
+    #: Half widths of their 95 % confidence intervals, by bootstrap.
     first_error: float
     total_error: float
 

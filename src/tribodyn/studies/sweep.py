@@ -35,8 +35,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-_LOOKED_AT: Final = 16
-"""Points whose estimates stand for all."""
+_LOOKED_AT: Final = 16  #: Points whose estimates stand for all.
 
 
 def warnings_of(plan: SweepPlan, to_do: int, workers: int | None) -> list[str]:
@@ -78,50 +77,27 @@ RECORD: Final = "sweep.json"
 
 @dataclass(frozen=True)
 class Arrival:
-    """Progress of a sweep.
+    """Progress of a sweep."""
 
-    Attributes
-    ----------
-    done, to_do
-        How many points were computed, and how many this sweep computes in all.
-    point
-        The one that has just arrived; None at the beginning.
-    failure
-        Why it gave no result, empty where it did.
-    """
-
+    #: How many points were computed, and how many this sweep computes in all.
     done: int
     to_do: int
-    point: Point | None = None
-    failure: str = ""
+    point: Point | None = None  #: The one that has just arrived; None at the beginning.
+    failure: str = ""  #: Why it gave no result, empty where it did.
 
 
 @dataclass(frozen=True)
 class Means:
-    """Options of a sweep's computation; none of them changes a number.
+    """Options of a sweep's computation; none of them changes a number."""
 
-    Attributes
-    ----------
-    workers
-        Processes on this machine, by default one for each processor; 0 computes in this process.
-    scheduler
-        Address of a Dask scheduler to use instead.
-    tls
-        How to know it, where its address begins with ``tls://``.
-    retry
-        Whether points that failed before are computed again.
-    fresh
-        Whether all points are.
-    keep_results
-        Whether each point keeps its whole result beside its key results; by default those of a sweep of a few
-        points do, see :data:`~tribodyn.results.store.FEW_POINTS`.
-    """
-
+    #: Processes on this machine, by default one for each processor; 0 computes in this process.
     workers: int | None = None
-    scheduler: str | None = None
-    tls: Tls | None = None
-    retry: bool = False
-    fresh: bool = False
+    scheduler: str | None = None  #: Address of a Dask scheduler to use instead.
+    tls: Tls | None = None  #: How to know it, where its address begins with ``tls://``.
+    retry: bool = False  #: Whether points that failed before are computed again.
+    fresh: bool = False  #: Whether all points are.
+    #: Whether each point keeps its whole result beside its key results; by default those of a sweep of a few
+    #: points do, see :data:`~tribodyn.results.store.FEW_POINTS`.
     keep_results: bool | None = None
 
 
@@ -131,25 +107,15 @@ def _nothing(_: object) -> None:
 
 @dataclass(frozen=True)
 class Watcher:
-    """Listener to the progress of a sweep, which may end it.
+    """Listener to the progress of a sweep, which may end it."""
 
-    Attributes
-    ----------
-    arrived
-        Called at the beginning and after every point.
-    stop
-        Asked several times a second; when true, the sweep ends with the points it has.
-    note
-        Called with a line about the work.
-    """
-
-    arrived: Callable[[Arrival], None] = _nothing
+    arrived: Callable[[Arrival], None] = _nothing  #: Called at the beginning and after every point.
+    #: Asked several times a second; when true, the sweep ends with the points it has.
     stop: Callable[[], bool] = lambda: False
-    note: Callable[[str], None] = _nothing
+    note: Callable[[str], None] = _nothing  #: Called with a line about the work.
 
 
-SILENT: Final = Watcher()
-"""A listener that hears nothing and ends nothing."""
+SILENT: Final = Watcher()  #: A listener that hears nothing and ends nothing.
 
 
 def sweep(

@@ -24,8 +24,9 @@ from tribodyn.studies.plan import varied_key
 from tribodyn.studies.sampling import DISTRIBUTIONS
 from tribodyn.studies.variation import SOURCE
 
+#: Ends of the ranges of sizes [mm], ISO 286-1:2010, Table 1.
 _UP_TO: Final = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
-"""Ends of the ranges of sizes [mm], ISO 286-1:2010, Table 1."""
+#: Widths of the grades over the ranges [µm], same table.
 _GRADES: Final = {
     "IT5": (4, 5, 6, 8, 9, 11, 13, 15, 18, 20, 23, 25, 27),
     "IT6": (6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36, 40),
@@ -36,37 +37,23 @@ _GRADES: Final = {
     "IT11": (60, 75, 90, 110, 130, 160, 190, 220, 250, 290, 320, 360, 400),
     "IT12": (100, 120, 150, 180, 210, 250, 300, 350, 400, 460, 520, 570, 630),
 }
-"""Widths of the grades over the ranges [µm], same table."""
+#: Arguments of each distribution for a width of 1: that of a normal one is six standard deviations.
 LAWS: Final = {"normal": (0.0, 1.0 / 6.0), "uniform": (-0.5, 0.5)}
-"""Arguments of each distribution for a width of 1: that of a normal one is six standard deviations."""
 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """One tolerance that may be chosen.
+    """One tolerance that may be chosen."""
 
-    Attributes
-    ----------
-    name
-        Of its table.
-    key
-        Key of the case that scatters.
-    law
-        A key of :data:`LAWS`.
-    share
-        Change of the key for a change of the toleranced size: one half for a radius of which the diameter is
-        toleranced.
-    steps
-        Width [SI] and cost of each choice by its label, the widest first; empty with ``curve``.
-    curve
-        a, k, least and largest width [SI]: the cost of a width w is a/(w/mm)ᵏ.
-    """
-
-    name: str
-    key: Key
-    law: str
+    name: str  #: Of its table.
+    key: Key  #: Key of the case that scatters.
+    law: str  #: A key of :data:`LAWS`.
+    #: Change of the key for a change of the toleranced size: one half for a radius of which the diameter is
+    #: toleranced.
     share: float
+    #: Width [SI] and cost of each choice by its label, the widest first; empty with ``curve``.
     steps: Mapping[str, tuple[float, float]]
+    #: a, k, least and largest width [SI]: the cost of a width w is a/(w/mm)ᵏ.
     curve: tuple[float, float, float, float] | None
 
     @property

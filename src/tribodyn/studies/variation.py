@@ -20,43 +20,25 @@ MOST_VALUES: Final = 10_000
 _CALL: Final = re.compile(r"\s*([A-Za-z_]+)\s*\((.*)\)\s*", re.DOTALL)
 _SCALABLE: Final = ("quantity", "number")
 
+#: Request for one parameter: text as on the command line, or values.
 Asked: TypeAlias = str | Iterable[object]
-"""Request for one parameter: text as on the command line, or values."""
 
 
 @dataclass(frozen=True)
 class Levels:
-    """A parameter that takes one value after the other.
+    """A parameter that takes one value after the other."""
 
-    Attributes
-    ----------
-    key
-        The key of the case that varies.
-    values
-        SI values, switches or names.
-    """
-
-    key: Key
-    values: tuple[Value, ...]
+    key: Key  #: The key of the case that varies.
+    values: tuple[Value, ...]  #: SI values, switches or names.
 
 
 @dataclass(frozen=True)
 class Scatter:
-    """A parameter that is drawn from a distribution.
+    """A parameter that is drawn from a distribution."""
 
-    Attributes
-    ----------
-    key
-        The key of the case that varies.
-    distribution
-        The family.
-    arguments
-        Its arguments, SI.
-    """
-
-    key: Key
-    distribution: Distribution
-    arguments: tuple[float, ...]
+    key: Key  #: The key of the case that varies.
+    distribution: Distribution  #: The family.
+    arguments: tuple[float, ...]  #: Its arguments, SI.
 
     def values(self, probabilities: FloatArray) -> FloatArray:
         """Return the SI values at the given probabilities, of the same shape."""

@@ -20,24 +20,15 @@ from tribodyn.studies.plan import Point
 
 @dataclass(frozen=True)
 class PointOutcome:
-    """Outcome of a point.
+    """Outcome of a point."""
 
-    Attributes
-    ----------
-    summary
-        As :func:`tribodyn.results.summarise` gives it; of a point that could not be computed only texts.
-    result
-        The dataset as NetCDF; empty where there is none, or none is wanted, or it is staged.
-    staged
-        File with the dataset, from :func:`tribodyn.results.atomic.stage`; empty where there is none.
-    final
-        Whether computing it again would give the same. Not so where a worker died.
-    """
-
+    #: As :func:`tribodyn.results.summarise` gives it; of a point that could not be computed only texts.
     summary: Summary
+    #: The dataset as NetCDF; empty where there is none, or none is wanted, or it is staged.
     result: bytes = b""
+    #: File with the dataset, from :func:`tribodyn.results.atomic.stage`; empty where there is none.
     staged: str = ""
-    final: bool = True
+    final: bool = True  #: Whether computing it again would give the same. Not so where a worker died.
 
     @property
     def failure(self) -> str:
@@ -102,10 +93,9 @@ def _outcome(
 
 
 _MOST_OF_BLOCK: Final = 16
+#: Processor time of a block [s]: what is lost with its worker, and how long a stop waits.
 _BLOCK_TIME: Final = 1.0
-"""Processor time of a block [s]: what is lost with its worker, and how long a stop waits."""
-_TURNS: Final = 4
-"""Blocks that each worker still gets: the last ones are short, so that all end together."""
+_TURNS: Final = 4  #: Blocks that each worker still gets: the last ones are short, so that all end together.
 
 
 def blocks_of(case: Case, points: Sequence[Point], workers: int) -> Iterator[Sequence[Point]]:
@@ -167,39 +157,22 @@ def import_what_points_need() -> None:
 
 Finished: TypeAlias = Iterator[tuple[Point, PointOutcome]]
 
-LISTEN: Final = 0.1
-"""Time between two looks at whether to stop [s]."""
-_SOON: Final = 5.0
-"""Time after which a user reads why workers are not ready [s]."""
+LISTEN: Final = 0.1  #: Time between two looks at whether to stop [s].
+_SOON: Final = 5.0  #: Time after which a user reads why workers are not ready [s].
 _PREPARING: Final = "preparing the workers"
 
 
 @dataclass(frozen=True)
 class SweepJob:
-    """Points to be computed.
+    """Points to be computed."""
 
-    Attributes
-    ----------
-    case
-        The case that all begin from.
-    points
-        One or more.
-    keep_result
-        Whether outcomes hold the whole result beside the key results.
-    staging
-        Path beside which workers of this machine leave it instead; empty for none.
-    stop
-        Asked several times a second; when true, what is still to be done is called off.
-    note
-        Called with what a user should know.
-    """
-
-    case: Case
-    points: Sequence[Point]
-    keep_result: bool
-    staging: str
+    case: Case  #: The case that all begin from.
+    points: Sequence[Point]  #: One or more.
+    keep_result: bool  #: Whether outcomes hold the whole result beside the key results.
+    staging: str  #: Path beside which workers of this machine leave it instead; empty for none.
+    #: Asked several times a second; when true, what is still to be done is called off.
     stop: Callable[[], bool]
-    note: Callable[[str], None]
+    note: Callable[[str], None]  #: Called with what a user should know.
 
 
 def stop_while_preparing(job: SweepJob) -> Callable[[], bool]:

@@ -19,18 +19,10 @@ from tribodyn.surfaces.treatment import FILTERS, LEVELS, filled, filtered, level
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """One-sided density of the variance of profiles along one direction.
+    """One-sided density of the variance of profiles along one direction."""
 
-    Attributes
-    ----------
-    frequency
-        1/λ [1/m], shape (n,), without zero.
-    density
-        [m³], shape (n,): its integral over frequency is the mean variance of a profile.
-    """
-
-    frequency: FloatArray
-    density: FloatArray
+    frequency: FloatArray  #: 1/λ [1/m], shape (n,), without zero.
+    density: FloatArray  #: [m³], shape (n,): its integral over frequency is the mean variance of a profile.
 
 
 def in_bands(spectrum: Spectrum, per_decade: int = 16) -> Spectrum:
@@ -101,31 +93,16 @@ class Treatment:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredSurface:
-    """A surface as it was measured.
+    """A surface as it was measured."""
 
-    Attributes
-    ----------
-    surface
-        Heights after levelling and filtering, from which all numbers come; its mean is zero.
-    treatment
-        What was done.
-    skewness, kurtosis
-        Third and fourth moment of the heights over σ³ and σ⁴ [1]; 0 and 3 when Gaussian.
-    moments
-        Spectral moments; σ = √m0.
-    asperities
-        What contact laws need.
-    warnings
-        What a reader of the numbers should know.
-    """
-
-    surface: Scan
-    treatment: Treatment
+    surface: Scan  #: Heights after levelling and filtering, from which all numbers come; its mean is zero.
+    treatment: Treatment  #: What was done.
+    #: Third and fourth moment of the heights over σ³ and σ⁴ [1]; 0 and 3 when Gaussian.
     skewness: float
     kurtosis: float
-    moments: Moments
-    asperities: Asperities
-    warnings: tuple[str, ...] = ()
+    moments: Moments  #: Spectral moments; σ = √m0.
+    asperities: Asperities  #: What contact laws need.
+    warnings: tuple[str, ...] = ()  #: What a reader of the numbers should know.
 
     @property
     def sigma(self) -> float:

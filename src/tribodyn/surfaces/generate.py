@@ -15,8 +15,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.surfaces.moments import Moments
 from tribodyn.surfaces.scan import Scan
 
+#: Mean of cosⁿ over directions for n = 0, 2, 4, by dimension.
 _DIRECTIONS = {1: (1.0, 1.0, 1.0), 2: (1.0, 1.0 / 2.0, 3.0 / 8.0)}
-"""Mean of cosⁿ over directions for n = 0, 2, 4, by dimension."""
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from tribodyn.core.quoting import LONGEST, as_given, brief
 from tribodyn.surfaces.scan import MOST_POINTS, Length, Scan, from_columns
 from tribodyn.surfaces.text import Scale, parse_spacing, unit_size
 
+#: Formats whose files carry no mark: taken only from a file whose name ends so.
 _WITHOUT_MARK: Final = ("hgt", "nms")
-"""Formats whose files carry no mark: taken only from a file whose name ends so."""
 
 
 def read_instrument(

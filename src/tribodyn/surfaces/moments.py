@@ -20,8 +20,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.surfaces.scan import Scan
 
-REACH: Final = 3
-"""Points on each side that a difference reads."""
+REACH: Final = 3  #: Points on each side that a difference reads.
 _SLOPE: Final = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 _CURVATURE: Final = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
 _COARSE_CURVATURE: Final = np.array([0.0, 0.0, 1.0, -2.0, 1.0, 0.0, 0.0])
@@ -52,27 +51,18 @@ def _difference(heights: FloatArray, weights: FloatArray, axis: int) -> FloatArr
 
 @dataclass(frozen=True)
 class Directional:
-    """Second and fourth moments of a map that belong to directions.
+    """Second and fourth moments of a map that belong to directions."""
 
-    Attributes
-    ----------
-    m2_x, m2_y
-        Along the axes [1].
-    m4_x, m4_y
-        Along the axes [1/m²].
-    m2_across, m2_along
-        Largest and smallest over all directions [1]: across and along the lay.
-    lay
-        Direction of the smallest, from x towards y [rad], in [-π/2, π/2].
-    """
-
+    #: Along the axes [1].
     m2_x: float
     m2_y: float
+    #: Along the axes [1/m²].
     m4_x: float
     m4_y: float
+    #: Largest and smallest over all directions [1]: across and along the lay.
     m2_across: float
     m2_along: float
-    lay: float
+    lay: float  #: Direction of the smallest, from x towards y [rad], in [-π/2, π/2].
 
     @property
     def texture(self) -> float:
@@ -82,23 +72,15 @@ class Directional:
 
 @dataclass(frozen=True)
 class Moments:
-    """Spectral moments in the sense of a profile of an isotropic surface.
+    """Spectral moments in the sense of a profile of an isotropic surface."""
 
-    Attributes
-    ----------
-    m0, m2, m4
-        Variance of height [m²], slope [1] and curvature [1/m²].
-    resolved
-        m4 by three points over m4 by seven [1]: near 1 when the grid resolves the curvature.
-    directional
-        What a map says of directions; None for a profile.
-    """
-
+    #: Variance of height [m²], slope [1] and curvature [1/m²].
     m0: float
     m2: float
     m4: float
+    #: m4 by three points over m4 by seven [1]: near 1 when the grid resolves the curvature.
     resolved: float = 1.0
-    directional: Directional | None = None
+    directional: Directional | None = None  #: What a map says of directions; None for a profile.
 
     def __add__(self, other: Moments) -> Moments:
         """Return the moments of the sum of two independent surfaces, which is the gap between them."""
@@ -156,33 +138,19 @@ def _mean_square(values: FloatArray) -> float:
     return float(np.nanmean(values**2))
 
 
+#: α of an isotropic Gaussian surface with a single wavelength; none is below it.
 LEAST_BANDWIDTH: Final = 1.5
-"""α of an isotropic Gaussian surface with a single wavelength; none is below it."""
 
 
 @dataclass(frozen=True)
 class Asperities:
-    """The equivalent sphere-tipped asperities of a random surface.
+    """The equivalent sphere-tipped asperities of a random surface."""
 
-    Attributes
-    ----------
-    density
-        Summits per area ξ = m4/(6π√3 m2) [1/m²].
-    radius
-        Radius β = ⅜√(π/m4) of the mean curvature of the summits [m].
-    bandwidth
-        α = m0 m4/m2² [1].
-    summit_rms
-        Standard deviation of summit heights σ_s = √((1 − 0.8968/α) m0) [m].
-    summit_offset
-        Mean height of the summits above the mean plane 4√(m0/(πα)) [m].
-    """
-
-    density: float
-    radius: float
-    bandwidth: float
-    summit_rms: float
-    summit_offset: float
+    density: float  #: Summits per area ξ = m4/(6π√3 m2) [1/m²].
+    radius: float  #: Radius β = ⅜√(π/m4) of the mean curvature of the summits [m].
+    bandwidth: float  #: α = m0 m4/m2² [1].
+    summit_rms: float  #: Standard deviation of summit heights σ_s = √((1 − 0.8968/α) m0) [m].
+    summit_offset: float  #: Mean height of the summits above the mean plane 4√(m0/(πα)) [m].
 
     def plasticity_index(self, modulus: float, hardness: float) -> float:
         """Return ψ = (E/H)√(σ_s/β) [1] (Greenwood and Williamson 1966): below 0.6 elastic, above 1 plastic.

@@ -9,8 +9,8 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.surfaces.analysis import MeasuredSurface
 
+#: Sections of a profile whose heights from the lowest to the highest point Rz is the mean of.
 SECTIONS: Final = 5
-"""Sections of a profile whose heights from the lowest to the highest point Rz is the mean of."""
 
 
 def arithmetic_mean(heights: FloatArray) -> float:
@@ -26,22 +26,13 @@ def mean_total_height(heights: FloatArray) -> float:
 
 @dataclass(frozen=True)
 class SurfaceParameter:
-    """One number of a surface.
+    """One number of a surface."""
 
-    Attributes
-    ----------
-    label, unit
-        As a person reads them.
-    value
-        The number in that unit, of a surface that has it.
-    of_maps
-        Whether only maps have it, or only profiles; None where both do.
-    """
-
+    #: As a person reads them.
     label: str
     unit: str
-    value: Callable[[MeasuredSurface], float]
-    of_maps: bool | None = None
+    value: Callable[[MeasuredSurface], float]  #: The number in that unit, of a surface that has it.
+    of_maps: bool | None = None  #: Whether only maps have it, or only profiles; None where both do.
 
 
 def _directional(name: str, factor: float = 1.0) -> Callable[[MeasuredSurface], float]:
@@ -52,6 +43,7 @@ def _heights(surface: MeasuredSurface) -> FloatArray:
     return surface.surface.heights
 
 
+#: All of them, in the order of reading; names carry the unit.
 PARAMETERS: Final[dict[str, SurfaceParameter]] = {
     "sigma_um": SurfaceParameter("roughness sigma", "um", lambda s: s.sigma * 1e6),
     "Ra_um": SurfaceParameter(
@@ -95,7 +87,6 @@ PARAMETERS: Final[dict[str, SurfaceParameter]] = {
         "mean height of the summits", "um", lambda s: s.asperities.summit_offset * 1e6
     ),
 }
-"""All of them, in the order of reading; names carry the unit."""
 
 
 def numbers(surface: MeasuredSurface) -> dict[str, float]:

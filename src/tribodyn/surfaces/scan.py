@@ -12,14 +12,13 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
+#: Reads a length with its unit, such as ``0.5 um``, as metres; raises ValueError saying what is wrong.
 Length: TypeAlias = Callable[[str], float]
-"""Reads a length with its unit, such as ``0.5 um``, as metres; raises ValueError saying what is wrong."""
 
 MOST_POINTS: Final = 50_000_000
+#: Steps for each point of a profile above which nearly all of it is missing, and no grid is made.
 _SPARSEST: Final = 100
-"""Steps for each point of a profile above which nearly all of it is missing, and no grid is made."""
-_JITTER: Final = 0.05
-"""Part of a step by which the points of a profile may stand off equal steps."""
+_JITTER: Final = 0.05  #: Part of a step by which the points of a profile may stand off equal steps.
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,10 +10,9 @@ from tribodyn.core.errors import InputError
 from tribodyn.surfaces.scan import Scan
 from tribodyn.surfaces.treatment import filled, levelled
 
+#: In each direction: seven are read for one curvature, and a mean needs more than a few.
 FEWEST_POINTS: Final = 32
-"""In each direction: seven are read for one curvature, and a mean needs more than a few."""
-MOST_MISSING: Final = 0.10
-"""Share of heights that may be missing: the rest still stands for the surface."""
+MOST_MISSING: Final = 0.10  #: Share of heights that may be missing: the rest still stands for the surface.
 _TALLEST: Final = 1.0
 _WIDEST_STEP: Final = 0.1
 _FEWEST_HEIGHTS: Final = 8

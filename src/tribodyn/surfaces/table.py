@@ -18,8 +18,7 @@ from tribodyn.core.quoting import as_given
 from tribodyn.surfaces.scan import MOST_POINTS
 
 _MARKS: Final = tuple(mark.encode() for mark in SEPARATORS)
-BLOCK: Final = 1_000_000
-"""Bytes that are read at a time."""
+BLOCK: Final = 1_000_000  #: Bytes that are read at a time.
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,21 +27,17 @@ class Line:
 
     number: int
     text: str
-    goes_on: bool = False
-    """Whether more of it follows; the piece ends with a separator then."""
+    goes_on: bool = False  #: Whether more of it follows; the piece ends with a separator then.
 
 
 @dataclass(frozen=True, slots=True)
 class Block:
     """Lines that follow each other."""
 
-    number: int
-    """Of the first line in the file, counted from 1."""
+    number: int  #: Of the first line in the file, counted from 1.
     texts: list[str]
-    goes_on: bool
-    """Whether the last line goes on in the next block."""
-    begun: bool = False
-    """Whether the first line began in the block before."""
+    goes_on: bool  #: Whether the last line goes on in the next block.
+    begun: bool = False  #: Whether the first line began in the block before.
 
     def lines(self) -> Iterator[Line]:
         """Give the lines that are not blank."""
@@ -121,8 +116,8 @@ def _decoded(content: bytes, start: int, source: str) -> str:
 _MISSING: Final = ("", "nan")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _DECIMAL_COMMA: Final = re.compile(r"[+-]?\d+,\d+", re.ASCII)
+#: In such a text Python takes for a number what is one here.
 _PLAIN: Final = re.compile(r"[\d\s.,;eE+-]*+(?:(?<![+-])nan[\d\s.,;eE+-]*+)*", re.ASCII | re.IGNORECASE)
-"""In such a text Python takes for a number what is one here."""
 
 
 class Table:

@@ -30,8 +30,8 @@ from tribodyn.core.quoting import as_given, brief
 from tribodyn.surfaces.scan import Length, Scan, from_columns
 from tribodyn.surfaces.table import Block, Line, Table, blocks, too_long
 
+#: Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known.
 Numbers: TypeAlias = Callable[[int | None], FloatArray]
-"""Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known."""
 
 _NOTE: Final = re.compile(r"#\s*(unit|spacing)\s*[:=]\s*(.+?)\s*", re.IGNORECASE)
 

@@ -42,8 +42,8 @@ def filled(heights: FloatArray) -> FloatArray:
     return result
 
 
+#: Name of a level and the total degree of its polynomial.
 LEVELS: Final[dict[str, int]] = {"mean": 0, "plane": 1, "quadratic": 2}
-"""Name of a level and the total degree of its polynomial."""
 
 
 def levelled(scan: Scan, level: str) -> Scan:
@@ -76,10 +76,9 @@ def _terms(shape: tuple[int, ...], degree: int) -> list[FloatArray]:
     return [powers[0][i] * powers[1][j] for i in range(degree + 1) for j in range(degree + 1 - i)]
 
 
+#: α of ISO 16610-21, for which half of a wave of the length of the cut-off passes.
 _ALPHA: Final = math.sqrt(math.log(2.0) / math.pi)
-"""α of ISO 16610-21, for which half of a wave of the length of the cut-off passes."""
-_REACH: Final = 6.0
-"""Standard deviations of the weight beyond which it is taken as zero: e⁻¹⁸."""
+_REACH: Final = 6.0  #: Standard deviations of the weight beyond which it is taken as zero: e⁻¹⁸.
 
 Smoother: TypeAlias = Callable[[Scan, float], FloatArray]
 

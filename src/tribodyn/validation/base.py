@@ -30,8 +30,7 @@ class Kind(StrEnum):
     OWN = "your own rig"
 
 
-Sides: TypeAlias = tuple[float, float]
-"""Widths of an interval below and above its value."""
+Sides: TypeAlias = tuple[float, float]  #: Widths of an interval below and above its value.
 
 
 @dataclass(frozen=True)
@@ -39,34 +38,19 @@ class Band:
     """Acceptance band, fixed before any run.
 
     Exactly one kind of limit is given.
-
-    Attributes
-    ----------
-    name
-        Its key in ``set.toml``.
-    source
-        The text of the source that gives it.
-    relative, absolute
-        Largest difference of computed and measured value, over the measured value or as it is.
-    at_least, at_most
-        Limits of the computed value, one or both.
-    must_exceed
-        Difference (absolute) that a model expected to fail has to exceed.
-    covers
-        Interval that the computed range has to contain.
-    data
-        File of the set that gives the limits, where the line names no number.
     """
 
-    name: str
-    source: str
+    name: str  #: Its key in ``set.toml``.
+    source: str  #: The text of the source that gives it.
+    #: Largest difference of computed and measured value, over the measured value or as it is.
     relative: float | None = None
     absolute: float | None = None
+    #: Limits of the computed value, one or both.
     at_least: float | None = None
     at_most: float | None = None
-    must_exceed: float | None = None
-    covers: tuple[float, float] | None = None
-    data: str = ""
+    must_exceed: float | None = None  #: Difference (absolute) that a model expected to fail has to exceed.
+    covers: tuple[float, float] | None = None  #: Interval that the computed range has to contain.
+    data: str = ""  #: File of the set that gives the limits, where the line names no number.
 
     def limits(self, measured: float | None) -> tuple[float, float] | None:
         """Return the interval of accepted computed values; None where it is no interval."""
@@ -98,43 +82,23 @@ class Band:
 
 @dataclass(frozen=True)
 class Comparison:
-    """One number, measured and computed.
+    """One number, measured and computed."""
 
-    Attributes
-    ----------
-    name, unit
-        What it is, and the unit of all its values.
-    computed
-        Computed value.
-    measured
-        Measured value; None where there is a limit alone.
-    u_computed
-        Half width of the interval of the computed value, or its widths below and above.
-    u_measured
-        Half width of the interval of the measured value.
-    null
-        What a hand formula or an interpolation gives; None where there is none.
-    band
-        Acceptance band; None if the number is reported only.
-    not_judged
-        Why a number with a band is reported only: its computation was chosen with the measured values known.
-    spread
-        Lowest and highest computed value for which the verdict holds; the computed value alone without it.
-    note
-        Remark on the number.
-    """
-
+    #: What it is, and the unit of all its values.
     name: str
     unit: str
-    computed: float
-    measured: float | None = None
+    computed: float  #: Computed value.
+    measured: float | None = None  #: Measured value; None where there is a limit alone.
+    #: Half width of the interval of the computed value, or its widths below and above.
     u_computed: float | Sides = 0.0
-    u_measured: float = 0.0
-    null: float | None = None
-    band: Band | None = None
+    u_measured: float = 0.0  #: Half width of the interval of the measured value.
+    null: float | None = None  #: What a hand formula or an interpolation gives; None where there is none.
+    band: Band | None = None  #: Acceptance band; None if the number is reported only.
+    #: Lowest and highest computed value for which the verdict holds; the computed value alone without it.
     spread: tuple[float, float] | None = None
+    #: Why a number with a band is reported only: its computation was chosen with the measured values known.
     not_judged: str = ""
-    note: str = ""
+    note: str = ""  #: Remark on the number.
 
     @property
     def sides(self) -> Sides:
@@ -177,23 +141,15 @@ Values: TypeAlias = Sequence[float] | NDArray[np.floating]
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve or points of a plot.
+    """A curve or points of a plot."""
 
-    Attributes
-    ----------
-    label, kind
-        Its name, and whether its values are measured, computed or those of the null model.
-    x, y
-        Values.
-    half_width
-        Half widths of the intervals of ``y``.
-    """
-
+    #: Its name, and whether its values are measured, computed or those of the null model.
     label: str
     kind: Literal["measured", "computed", "null"]
+    #: Values.
     x: Values
     y: Values
-    half_width: Values | None = None
+    half_width: Values | None = None  #: Half widths of the intervals of ``y``.
 
 
 def rms(values: FloatArray) -> float:

@@ -23,6 +23,7 @@ from tribodyn.validation.base import Band, Kind, Outcome, Sides
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Every set by its folder in ``sets``.
 NAMES: Final = (
     "servo_friction_models",
     "ball_drop",
@@ -42,36 +43,22 @@ NAMES: Final = (
     "pin_on_disc_pps",
     "published_statements_2",
 )
-"""Every set by its folder in ``sets``."""
+#: Data under licences of their own: in the repository, in no package.
 OUTSIDE: Final = Path(__file__).parents[3] / "data"
-"""Data under licences of their own: in the repository, in no package."""
 
 
 @dataclass(frozen=True)
 class Input:
-    """An input of a computation: a value, the band of its uncertainty and where both come from.
+    """An input of a computation: a value, the band of its uncertainty and where both come from."""
 
-    Attributes
-    ----------
-    name
-        Its key in ``set.toml``.
-    value, low, high
-        Value and ends of its band, SI units; both ends equal the value where there is no band.
-    text
-        The value as written, with its unit.
-    source
-        Text of the source that gives it, empty if it is assumed.
-    assumed
-        Reason of an assumed value, empty if a source gives it.
-    """
-
-    name: str
+    name: str  #: Its key in ``set.toml``.
+    #: Value and ends of its band, SI units; both ends equal the value where there is no band.
     value: float
     low: float
     high: float
-    text: str
-    source: str
-    assumed: str
+    text: str  #: The value as written, with its unit.
+    source: str  #: Text of the source that gives it, empty if it is assumed.
+    assumed: str  #: Reason of an assumed value, empty if a source gives it.
 
     @property
     def band_text(self) -> str:
@@ -240,17 +227,10 @@ def _band(name: str, entry: Mapping[str, Any]) -> Band:
 
 @dataclass(frozen=True)
 class Varied:
-    """Values at the inputs and at the ends of their bands.
+    """Values at the inputs and at the ends of their bands."""
 
-    Attributes
-    ----------
-    values
-        At the inputs as given, shape (n,).
-    ends
-        By input: values at the lower and the upper end of its band, shape (2, n).
-    """
-
-    values: FloatArray
+    values: FloatArray  #: At the inputs as given, shape (n,).
+    #: By input: values at the lower and the upper end of its band, shape (2, n).
     ends: Mapping[str, FloatArray]
 
     @property

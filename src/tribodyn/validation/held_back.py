@@ -17,25 +17,18 @@ from tribodyn.validation.sets import pin_on_disc_pps as pins
 from tribodyn.validation.sets import screw_drive_friction as screw
 from tribodyn.wear.scatter import of_repeats
 
-SPEEDS: Final = (20.0, 100.0)
-"""Input speeds of the plateaus of the screw drives [rpm]."""
-LAW_OF: Final = {"1": "Stribeck", "2": "Stribeck", "3": "Stribeck by direction"}
-"""Law of each drive."""
+SPEEDS: Final = (20.0, 100.0)  #: Input speeds of the plateaus of the screw drives [rpm].
+LAW_OF: Final = {"1": "Stribeck", "2": "Stribeck", "3": "Stribeck by direction"}  #: Law of each drive.
+#: Displacement at which friction of a joint breaks away: the default, a tenth and ten times of it [m].
 PRESLIDING: Final = (1e-6, 1e-7, 1e-5)
-"""Displacement at which friction of a joint breaks away: the default, a tenth and ten times of it [m]."""
-MASS: Final = 2.618e-4
-"""Of the ball [kg]."""
-_SHOT: Final = 1e-5
-"""Time from the begin of a shot to its largest force [s]."""
+MASS: Final = 2.618e-4  #: Of the ball [kg].
+_SHOT: Final = 1e-5  #: Time from the begin of a shot to its largest force [s].
 _GAP: Final = 2e-4
-_AFTER: Final = 9e-5
-"""Time after which the ball has left the wall, beside that of its way there [s]."""
+_AFTER: Final = 9e-5  #: Time after which the ball has left the wall, beside that of its way there [s].
+#: Band tensions of held-back loops of the damper by their frequency [lb].
 TENSIONS: Final = {0.5: (22.0, 25.0, 70.0), 1.0: (22.0, 25.0, 35.0, 70.0, 80.0)}
-"""Band tensions of held-back loops of the damper by their frequency [lb]."""
-ENERGY: Final = {0.5: 0.05, 1.0: 0.08}
-"""Accepted difference of the energy of a loop by frequency."""
-_HEAD: Final = 14.0
-"""Radius of a head that is 6 mm larger than that of the set ``clarke`` [mm]."""
+ENERGY: Final = {0.5: 0.05, 1.0: 0.08}  #: Accepted difference of the energy of a loop by frequency.
+_HEAD: Final = 14.0  #: Radius of a head that is 6 mm larger than that of the set ``clarke`` [mm].
 
 
 def plateaus() -> Iterator[Prediction]:

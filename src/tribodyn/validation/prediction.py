@@ -5,33 +5,22 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Prediction:
-    """A number stated before its measured value is seen.
+    """A number stated before its measured value is seen."""
 
-    Attributes
-    ----------
-    set, name, unit
-        Validation set, what it is, and its unit.
-    value, low, high
-        Value and interval.
-    null, null_low, null_high
-        Value and interval of the null model.
-    reading
-        How the measured value is read.
-    half_width
-        Half width of that reading.
-    """
-
+    #: Validation set, what it is, and its unit.
     set: str
     name: str
     unit: str
+    #: Value and interval.
     value: float
     low: float
     high: float
+    #: Value and interval of the null model.
     null: float
     null_low: float
     null_high: float
-    reading: str
-    half_width: float
+    reading: str  #: How the measured value is read.
+    half_width: float  #: Half width of that reading.
 
     @property
     def refuted_by(self) -> str:

@@ -27,19 +27,17 @@ from tribodyn.validation.sets import screw_drive_friction as screw
 from tribodyn.validation.sets import servo_play as play
 
 FILE: Final = "predictions.toml"
-HELD_LOAD: Final = 450.0
-"""Load of the points of the bearing that are held back [N]."""
+HELD_LOAD: Final = 450.0  #: Load of the points of the bearing that are held back [N].
 HELD_SPEEDS: Final = (250.0, 500.0, 650.0)
-COUPLED_TORQUE: Final = 0.294
-"""Torque on two coupled servos [N m]."""
+COUPLED_TORQUE: Final = 0.294  #: Torque on two coupled servos [N m].
+#: Start torque over friction at rest: static friction grows with the time at rest, which is not known.
 _START: Final = (0.9, 1.3)
-"""Start torque over friction at rest: static friction grows with the time at rest, which is not known."""
 _STOP: Final = (0.85, 1.15)
 
 
 _NUMBERS: Final = ("value", "low", "high", "null", "null_low", "null_high")
+#: Level of all intervals: ends of bands of inputs and half widths of data are those of 95 % intervals.
 LEVEL: Final = 0.95
-"""Level of all intervals: ends of bands of inputs and half widths of data are those of 95 % intervals."""
 
 
 def register() -> list[dict[str, Any]]:

@@ -46,8 +46,7 @@ _WITHIN: Final = {
     True: "within the band, as is the null model",
     None: "within the band, no null model",
 }
-COUNTS: Final = (*_WITHIN.values(), Verdict.OUTSIDE.value, Verdict.REPORTED.value)
-"""Names of counts."""
+COUNTS: Final = (*_WITHIN.values(), Verdict.OUTSIDE.value, Verdict.REPORTED.value)  #: Names of counts.
 
 
 def _count_of(row: Comparison) -> str:

@@ -40,36 +40,22 @@ from tribodyn.validation.base import Band, Comparison, Curve, Kind, Outcome, Plo
 from tribodyn.validation.catalogue import ValidationSet, sides_of
 
 LARGEST: Final = 1_000_000
-MOST: Final = 1000
-"""Rows of a file, at most."""
+MOST: Final = 1000  #: Rows of a file, at most.
 NEEDED: Final = ("quantity", "measured", "half_width", "accepted")
-TIGHTER: Final = 0.1
-"""Factor on the tolerance of the integration for its share of the uncertainty."""
-LEAST_TOLERANCE: Final = 1e-12
-"""The least tolerance that a case takes."""
+TIGHTER: Final = 0.1  #: Factor on the tolerance of the integration for its share of the uncertainty.
+LEAST_TOLERANCE: Final = 1e-12  #: The least tolerance that a case takes.
 
 
 @dataclass(frozen=True)
 class Rig(ValidationSet):
-    """A user's own set.
+    """A user's own set."""
 
-    Attributes
-    ----------
-    path, case
-        The file of numbers, and the case that they belong to.
-    assumed
-        Keys whose values are assumed, with their ranges.
-    digest
-        SHA-256 of the file.
-    numbers
-        Its rows.
-    """
-
+    #: The file of numbers, and the case that they belong to.
     path: Path
     case: Case
-    assumed: tuple[VariedKey, ...]
-    digest: str
-    numbers: tuple[Mapping[str, str], ...]
+    assumed: tuple[VariedKey, ...]  #: Keys whose values are assumed, with their ranges.
+    digest: str  #: SHA-256 of the file.
+    numbers: tuple[Mapping[str, str], ...]  #: Its rows.
     table: Mapping[str, Any] = field(default_factory=dict)
 
     def explanation(self, row: str) -> str:
@@ -281,6 +267,7 @@ def _assumed(case: Case, one: VariedKey) -> dict[str, Any]:
 
 README: Final = "README.md"
 NUMBERS: Final = "numbers.csv"
+#: Files of a new set, by name.
 TEMPLATE: Final = {
     README: """# Title: quantity, machine, conditions
 
@@ -304,7 +291,6 @@ force_mean_N_wrist,1460,20,10 %,,example: mean force of the case slider-crank,
 drive_power_mean_W,226,5,,,example without a band: reported only,
 """,
 }
-"""Files of a new set, by name."""
 
 
 def write_template(folder: Path) -> None:

@@ -12,19 +12,15 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.views.encode import packed, quantised
 from tribodyn.views.section import Payload
 
+#: Angles at which the bushing is cut open [deg], the preferred one first.
 CUTS: Final = (90.0, 270.0, 180.0, 0.0, 45.0, 135.0, 225.0, 315.0)
-"""Angles at which the bushing is cut open [deg], the preferred one first."""
+#: Further angles of the cut, for load at all of the others.
 _BETWEEN: Final = tuple(float(cut) for cut in range(0, 360, 15) if cut not in CUTS)
-"""Further angles of the cut, for load at all of the others."""
-_BORDERS: Final = (30.0, 15.0, 5.0)
-"""Widths of free borders on both sides of a cut [deg], the best first."""
+_BORDERS: Final = (30.0, 15.0, 5.0)  #: Widths of free borders on both sides of a cut [deg], the best first.
 
-_GAP: Final = 0.6 * np.pi
-"""Angle without a node from which a surface is not all around [rad]."""
-WALL: Final = "angle from +X towards +Y [°]"
-"""Label of an axis with the angles of :func:`wall_angles`."""
-_MOST_STEPS: Final = 3
-"""Labelled stretches between the middle and an edge."""
+_GAP: Final = 0.6 * np.pi  #: Angle without a node from which a surface is not all around [rad].
+WALL: Final = "angle from +X towards +Y [°]"  #: Label of an axis with the angles of :func:`wall_angles`.
+_MOST_STEPS: Final = 3  #: Labelled stretches between the middle and an edge.
 
 
 def wall_angles(dataset: xr.Dataset) -> FloatArray:
@@ -165,26 +161,13 @@ def _round_steps(low: float, high: float) -> FloatArray:
 
 @dataclass(frozen=True)
 class Unrolled:
-    """Nodes of the bushing when it is cut open.
+    """Nodes of the bushing when it is cut open."""
 
-    Attributes
-    ----------
-    theta
-        Angles of the nodes from +X towards +Y [rad], shape (n_theta,).
-    z
-        Heights of the nodes [mm], shape (n_z,), increasing from edge to edge.
-    cut
-        Where it is cut [°].
-    empty
-        Height [mm] below which nothing happens and the drawing is shortened; 0 where it is not.
-    middle
-        What is added to heights where they are shown [mm]: the middle of a surface that is not about zero.
-    """
-
-    theta: FloatArray
-    z: FloatArray
-    cut: float
-    empty: float
+    theta: FloatArray  #: Angles of the nodes from +X towards +Y [rad], shape (n_theta,).
+    z: FloatArray  #: Heights of the nodes [mm], shape (n_z,), increasing from edge to edge.
+    cut: float  #: Where it is cut [°].
+    empty: float  #: Height [mm] below which nothing happens and the drawing is shortened; 0 where it is not.
+    #: What is added to heights where they are shown [mm]: the middle of a surface that is not about zero.
     middle: float = 0.0
 
     @property

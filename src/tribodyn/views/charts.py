@@ -32,8 +32,7 @@ from tribodyn.views.section import Payload, Section, coordinates
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST: Final = 6000
-"""Points of a curve above which it is thinned: three for each pixel of a wide screen."""
+MOST: Final = 6000  #: Points of a curve above which it is thinned: three for each pixel of a wide screen.
 
 
 def thinned(x: FloatArray, y: FloatArray, most: int = MOST) -> tuple[FloatArray, FloatArray]:
@@ -64,8 +63,8 @@ def thinned(x: FloatArray, y: FloatArray, most: int = MOST) -> tuple[FloatArray,
 
 
 _APART: Final = 64
+#: Parts of an ordinate that a curve may be off by: a tenth of a pixel where it is shown whole.
 FINEST: Final = 4000
-"""Parts of an ordinate that a curve may be off by: a tenth of a pixel where it is shown whole."""
 
 
 def straightened(x: FloatArray, y: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
@@ -110,6 +109,7 @@ def _extremes(y: FloatArray, begin: int, end: int) -> np.ndarray[tuple[int], np.
     return begin + np.array([*ends, *inner], dtype=np.intp)
 
 
+#: Colour and dash of curves that have no look of their own; distinguished in grey by the dash.
 LOOKS: Final = (
     ("ink", "solid"),
     ("blue", "dash"),
@@ -119,79 +119,38 @@ LOOKS: Final = (
     ("purple", "dash"),
     ("grey", "longdash"),
 )
-"""Colour and dash of curves that have no look of their own; distinguished in grey by the dash."""
 
 
 @dataclass(frozen=True)
 class ChartCurve:
-    """One curve.
+    """One curve."""
 
-    Attributes
-    ----------
-    name
-        For the legend.
-    values
-        What is drawn, in the unit of its panel, shape (n,).
-    colour
-        Name of a colour of the page's style sheet.
-    dash
-        Dash pattern: solid, dash, dashdot, dot or longdash.
-    width
-        Line width [px].
-    x
-        Its own abscissa, shape (n,); by default that of the figure.
-    """
-
-    name: str
-    values: FloatArray
-    colour: str = "ink"
-    dash: str = "solid"
-    width: float = 1.6
-    x: FloatArray | None = None
+    name: str  #: For the legend.
+    values: FloatArray  #: What is drawn, in the unit of its panel, shape (n,).
+    colour: str = "ink"  #: Name of a colour of the page's style sheet.
+    dash: str = "solid"  #: Dash pattern: solid, dash, dashdot, dot or longdash.
+    width: float = 1.6  #: Line width [px].
+    x: FloatArray | None = None  #: Its own abscissa, shape (n,); by default that of the figure.
 
 
 @dataclass(frozen=True)
 class ChartMarks:
-    """Points with a letter each.
+    """Points with a letter each."""
 
-    Attributes
-    ----------
-    times
-        When [s], shape (n,).
-    values
-        Where, in the unit of the panel, shape (n,).
-    labels
-        Their letters.
-    """
-
-    times: FloatArray
-    values: FloatArray
-    labels: tuple[str, ...]
+    times: FloatArray  #: When [s], shape (n,).
+    values: FloatArray  #: Where, in the unit of the panel, shape (n,).
+    labels: tuple[str, ...]  #: Their letters.
 
 
 @dataclass(frozen=True)
 class Panel:
-    """Curves with a common ordinate.
+    """Curves with a common ordinate."""
 
-    Attributes
-    ----------
-    label
-        Quantity, and its unit in brackets.
-    curves
-        Drawn in this order.
-    smooth
-        Whether the panel opens on the smooth motion, where impacts would flatten it.
-    level
-        A value to compare with, drawn as a fine line; none by default.
-    marks
-        Points to mark in the figure; none by default.
-    """
-
-    label: str
-    curves: Sequence[ChartCurve]
-    smooth: bool = False
-    level: float | None = None
-    marks: ChartMarks | None = None
+    label: str  #: Quantity, and its unit in brackets.
+    curves: Sequence[ChartCurve]  #: Drawn in this order.
+    smooth: bool = False  #: Whether the panel opens on the smooth motion, where impacts would flatten it.
+    level: float | None = None  #: A value to compare with, drawn as a fine line; none by default.
+    marks: ChartMarks | None = None  #: Points to mark in the figure; none by default.
 
     @property
     def unit(self) -> str:
@@ -240,16 +199,13 @@ class Panel:
 
 
 _UNIT: Final = re.compile(r"\[([^\]]*)\]$", re.MULTILINE)
-_FEW: Final = 8
-"""Samples below which the first one is like the others."""
+_FEW: Final = 8  #: Samples below which the first one is like the others.
+#: Range of all later samples over that of all below which the first one does not set the ordinate.
 _FIRST: Final = 0.5
-"""Range of all later samples over that of all below which the first one does not set the ordinate."""
-_CONSTANT: Final = 1.0e-6
-"""Range of a curve over its largest value that counts as constant."""
-_NOTHING: Final = 1.0e-9
-"""Size of a curve over the largest one of its panel that counts as zero."""
+_CONSTANT: Final = 1.0e-6  #: Range of a curve over its largest value that counts as constant.
+_NOTHING: Final = 1.0e-9  #: Size of a curve over the largest one of its panel that counts as zero.
+#: Values of errors and offsets that are rounding or the solver's, by unit.
 _NOISE: Final = {"µm": 1.0e-4, "mm": 1.0e-7, "°": 1.0e-8, "mm/s": 1.0e-6, "°/s": 1.0e-6}
-"""Values of errors and offsets that are rounding or the solver's, by unit."""
 
 
 def telling(panels: Sequence[Panel]) -> tuple[list[Panel], str]:
@@ -348,33 +304,16 @@ def _curve(curve: ChartCurve, common: FloatArray, scale: float, tolerance: float
 
 @dataclass(frozen=True)
 class Chart:
-    """Panels above each other over the simulated time or something else: a section and a figure.
+    """Panels above each other over the simulated time or something else: a section and a figure."""
 
-    Attributes
-    ----------
-    name
-        File name of its figure, and identifier of its section in the report.
-    title
-        What it shows.
-    caption
-        How to read it, in a sentence or two.
-    needs
-        Names of the variables without which it is left out.
-    panels
-        Returns what is drawn.
-    abscissa
-        Returns label and values of another axis than time, shape (n,).
-    fading
-        Name of the curve that has faded where the close-up of a figure ends; empty for none.
-    """
-
-    name: str
-    title: str
-    caption: str
-    needs: tuple[str, ...]
-    panels: Callable[[xr.Dataset], Sequence[Panel]]
+    name: str  #: File name of its figure, and identifier of its section in the report.
+    title: str  #: What it shows.
+    caption: str  #: How to read it, in a sentence or two.
+    needs: tuple[str, ...]  #: Names of the variables without which it is left out.
+    panels: Callable[[xr.Dataset], Sequence[Panel]]  #: Returns what is drawn.
+    #: Returns label and values of another axis than time, shape (n,).
     abscissa: Callable[[xr.Dataset], tuple[str, FloatArray]] | None = None
-    fading: str = ""
+    fading: str = ""  #: Name of the curve that has faded where the close-up of a figure ends; empty for none.
 
     @property
     def section(self) -> Section:

@@ -14,8 +14,7 @@ from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over
 from tribodyn.views.events import series
 from tribodyn.views.section import Payload, Section
 
-_SAME: Final = 1.0e-9
-"""Times closer than this share of a drive cycle are the same."""
+_SAME: Final = 1.0e-9  #: Times closer than this share of a drive cycle are the same.
 _NEEDED: Final = {"cycle_period", "impact_time", "time_reached", "start"}
 
 
@@ -117,40 +116,20 @@ def _without_impacts(result: xr.Dataset, begin: float, shared: FloatArray, perio
 
 @dataclass(frozen=True)
 class OverlayQuantity:
-    """One quantity over time.
+    """One quantity over time."""
 
-    Attributes
-    ----------
-    label
-        Name and unit.
-    needs
-        Variables it is made of.
-    values
-        Returns it in that unit, shape (n_t,).
-    """
-
-    label: str
-    needs: tuple[str, ...]
-    values: Callable[[xr.Dataset], FloatArray]
+    label: str  #: Name and unit.
+    needs: tuple[str, ...]  #: Variables it is made of.
+    values: Callable[[xr.Dataset], FloatArray]  #: Returns it in that unit, shape (n_t,).
 
 
 @dataclass(frozen=True)
 class Overlay:
-    """One figure of a comparison.
+    """One figure of a comparison."""
 
-    Attributes
-    ----------
-    name
-        Identifier in the page.
-    title
-        What it shows.
-    quantities
-        A panel each.
-    """
-
-    name: str
-    title: str
-    quantities: tuple[OverlayQuantity, ...]
+    name: str  #: Identifier in the page.
+    title: str  #: What it shows.
+    quantities: tuple[OverlayQuantity, ...]  #: A panel each.
 
 
 def scaled(name: str, label: str, scale: float) -> OverlayQuantity:
@@ -158,6 +137,7 @@ def scaled(name: str, label: str, scale: float) -> OverlayQuantity:
     return OverlayQuantity(label, (name,), lambda dataset: series(dataset, name, scale))
 
 
+#: Comparison of any shafts in their bushings.
 BUSHING: Final = (
     Overlay(
         "force", "Contact force", (scaled("F_cx", "along X [N]", 1.0), scaled("F_cy", "along Y [N]", 1.0))
@@ -174,7 +154,6 @@ BUSHING: Final = (
     ),
     Overlay("pressure", "Peak pressure", (scaled("p_max", "peak pressure [MPa]", 1e-6),)),
 )
-"""Comparison of any shafts in their bushings."""
 
 
 def overlays(planned: Sequence[Overlay], runs: Mapping[str, xr.Dataset]) -> tuple[Section, ...]:

@@ -16,17 +16,10 @@ _UNIT: Final = 8
 
 @dataclass(frozen=True)
 class Packed:
-    """An array on its way into a page.
+    """An array on its way into a page."""
 
-    Attributes
-    ----------
-    array
-        Little-endian, flat and contiguous.
-    scale
-        Of numbers in equal steps, the lowest and the step; empty for numbers as they are.
-    """
-
-    array: NDArray[Any]
+    array: NDArray[Any]  #: Little-endian, flat and contiguous.
+    #: Of numbers in equal steps, the lowest and the step; empty for numbers as they are.
     scale: tuple[float, ...] = ()
 
     @property

@@ -22,21 +22,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class EnergyTerm:
-    """Origin of an energy column in the observed rows.
+    """Origin of an energy column in the observed rows."""
 
-    Attributes
-    ----------
-    row
-        Name of the observed quantity.
-    sign
-        -1 for the work of a force that turns into heat, else 1.
-    since_start
-        Whether the column is the change since the start.
-    """
-
-    row: str
-    sign: float = 1.0
-    since_start: bool = False
+    row: str  #: Name of the observed quantity.
+    sign: float = 1.0  #: -1 for the work of a force that turns into heat, else 1.
+    since_start: bool = False  #: Whether the column is the change since the start.
 
     def column(self, rows: Mapping[str, FloatArray]) -> FloatArray:
         """Return the column [J], shape (n_t,)."""
@@ -64,33 +54,15 @@ def energy_columns(
 
 @dataclass(frozen=True)
 class EnergyBalance:
-    """One energy balance of a mechanism.
+    """One energy balance of a mechanism."""
 
-    Attributes
-    ----------
-    title
-        What is balanced.
-    put_in
-        Columns of work put in, with what figures call them.
-    gained
-        Columns of energy gained, stored or turned into heat, likewise.
-    residual
-        Name of the column of what is left over.
-    measure
-        Columns against whose largest size the residual is measured.
-    attribute
-        Attribute of a result that holds the largest residual as a fraction of that.
-    yardstick
-        That size in words.
-    """
-
-    title: str
-    put_in: Mapping[str, str]
-    gained: Mapping[str, str]
-    residual: str
-    measure: tuple[str, ...]
-    attribute: str
-    yardstick: str
+    title: str  #: What is balanced.
+    put_in: Mapping[str, str]  #: Columns of work put in, with what figures call them.
+    gained: Mapping[str, str]  #: Columns of energy gained, stored or turned into heat, likewise.
+    residual: str  #: Name of the column of what is left over.
+    measure: tuple[str, ...]  #: Columns against whose largest size the residual is measured.
+    attribute: str  #: Attribute of a result that holds the largest residual as a fraction of that.
+    yardstick: str  #: That size in words.
 
     @property
     def terms(self) -> dict[str, str]:
@@ -128,8 +100,7 @@ def _largest(values: FloatArray) -> float:
     return float(np.abs(values).max(initial=0.0))
 
 
-_SEEN: Final = 0.01
-"""Share of the largest term above which a term is drawn."""
+_SEEN: Final = 0.01  #: Share of the largest term above which a term is drawn.
 
 
 def balance_chart(balance: EnergyBalance, *, name: str, title: str, caption: str) -> Chart:

@@ -17,32 +17,19 @@ from tribodyn.core.arrays import FloatArray
 _FLOAT: Final = 5126
 _INDEX: Final = 5125
 _KINDS: Final = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+#: Quaternion (x, y, z, w) that turns this axis of the drawing upwards, which is y in such files.
 _UP: Final = {"y": [0.0, 0.0, 0.0, 1.0], "z": [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]}
-"""Quaternion (x, y, z, w) that turns this axis of the drawing upwards, which is y in such files."""
 
 
 @dataclass(frozen=True)
 class Solid:
-    """A rigid body and its motion.
+    """A rigid body and its motion."""
 
-    Attributes
-    ----------
-    name
-        Its name.
-    colour
-        Red, green, blue, from 0 to 1.
-    vertices
-        In the axes of the body [m], shape (n, 3).
-    triangles
-        Numbers of their vertices, anticlockwise from outside, shape (m, 3).
-    position, orientation
-        Of the body over time: origin [m] and unit quaternion, scalar first, shapes (n_t, 3) and (n_t, 4).
-    """
-
-    name: str
-    colour: tuple[float, float, float]
-    vertices: FloatArray
-    triangles: NDArray[np.int64]
+    name: str  #: Its name.
+    colour: tuple[float, float, float]  #: Red, green, blue, from 0 to 1.
+    vertices: FloatArray  #: In the axes of the body [m], shape (n, 3).
+    triangles: NDArray[np.int64]  #: Numbers of their vertices, anticlockwise from outside, shape (m, 3).
+    #: Of the body over time: origin [m] and unit quaternion, scalar first, shapes (n_t, 3) and (n_t, 4).
     position: FloatArray
     orientation: FloatArray
 

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from tribodyn.results.summary import KeyResult
 
+#: Units of length with their sizes [m], the finest first. Nothing is finer than a nanometre.
 LENGTHS: Final = (("nm", 1e-9), ("µm", 1e-6), ("mm", 1e-3), ("m", 1.0))
-"""Units of length with their sizes [m], the finest first. Nothing is finer than a nanometre."""
+#: Units of one quantity with their sizes, the finest first.
 _STEPS: Final = (
     LENGTHS,
     (("mN", 1e-3), ("N", 1.0), ("kN", 1e3), ("MN", 1e6)),
@@ -22,7 +23,6 @@ _STEPS: Final = (
     (("µJ", 1e-6), ("mJ", 1e-3), ("J", 1.0), ("kJ", 1e3)),
     (("cycles", 1.0), ("thousand cycles", 1e3), ("million cycles", 1e6)),
 )
-"""Units of one quantity with their sizes, the finest first."""
 _FAMILY: Final = {unit: steps for steps in _STEPS for unit, _ in steps}
 
 _UNIT: Final = re.compile(r"(?<![A-Za-z])(u(?=[mNs](?![A-Za-z]))|deg(?![A-Za-z]))")
@@ -97,22 +97,13 @@ def interval(summary: Mapping[str, Any], name: str, factor: float = 1.0) -> str:
 
 @dataclass(frozen=True)
 class Column:
-    """Numbers of several parts, such as joints, in one unit.
+    """Numbers of several parts, such as joints, in one unit."""
 
-    Attributes
-    ----------
-    label, unit
-        Its heading.
-    factor
-        Of a number in this unit over one in that of the key results.
-    members
-        Key results by their names in ``summary.json``.
-    """
-
+    #: Its heading.
     label: str
     unit: str
-    factor: float
-    members: Mapping[str, KeyResult]
+    factor: float  #: Of a number in this unit over one in that of the key results.
+    members: Mapping[str, KeyResult]  #: Key results by their names in ``summary.json``.
 
 
 def columns_of(key_results: Mapping[str, KeyResult], summary: Mapping[str, Any]) -> list[Column]:

@@ -14,54 +14,32 @@ from tribodyn.views.section import Payload, Section, choice
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Looks of points in one circle; top, middle and bottom of a shaft.
 LOOKS: Final = (
     {"colour": "blue", "dash": "solid", "symbol": "circle"},
     {"colour": "ink", "dash": "dot", "symbol": "diamond"},
     {"colour": "vermilion", "dash": "dash", "symbol": "square"},
 )
-"""Looks of points in one circle; top, middle and bottom of a shaft."""
-_FINE: Final = 0.001
-"""Rounding of a path on a page, over the clearance."""
+_FINE: Final = 0.001  #: Rounding of a path on a page, over the clearance.
 
 
 @dataclass(frozen=True)
 class OrbitPath:
-    """Motion of one point.
+    """Motion of one point."""
 
-    Attributes
-    ----------
-    name
-        Of the point.
-    path
-        Places over the playback that straight lines may join [µm], shape (n, 2).
-    at
-        Places at the frames [µm], shape (n_frames, 2).
-    """
-
-    name: str
-    path: FloatArray
-    at: FloatArray
+    name: str  #: Of the point.
+    path: FloatArray  #: Places over the playback that straight lines may join [µm], shape (n, 2).
+    at: FloatArray  #: Places at the frames [µm], shape (n_frames, 2).
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """Points in one clearance circle.
+    """Points in one clearance circle."""
 
-    Attributes
-    ----------
-    name
-        Of the joint.
-    clearance
-        Radius of the circle [µm].
-    tracks
-        Of its points.
-    corners
-        Of the area that flat walls leave, in the place of the circle [µm], shape (n, 2).
-    """
-
-    name: str
-    clearance: float
-    tracks: tuple[OrbitPath, ...]
+    name: str  #: Of the joint.
+    clearance: float  #: Radius of the circle [µm].
+    tracks: tuple[OrbitPath, ...]  #: Of its points.
+    #: Of the area that flat walls leave, in the place of the circle [µm], shape (n, 2).
     corners: Sequence[Sequence[float]] = ()
 
     @property
@@ -90,25 +68,17 @@ class Orbit:
 
 @dataclass(frozen=True)
 class OrbitView:
-    """Orbits of a result.
+    """Orbits of a result."""
 
-    Attributes
-    ----------
-    name, title, caption, needs, still
-        As those of a :class:`tribodyn.views.section.Section`.
-    orbits
-        Returns the circles, one for each joint, without a playback none, and in words which joints are shown.
-    several
-        Whether a reader chooses among joints.
-    """
-
+    #: As those of a :class:`tribodyn.views.section.Section`.
     name: str
     title: str
     caption: str
     needs: tuple[str, ...]
     still: str
+    #: Returns the circles, one for each joint, without a playback none, and in words which joints are shown.
     orbits: Callable[[xr.Dataset], tuple[Sequence[Orbit], str]]
-    several: bool = True
+    several: bool = True  #: Whether a reader chooses among joints.
 
     @property
     def section(self) -> Section:

@@ -15,10 +15,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-_EVEN: Final = 241
-"""Moments of results without pressure frames of their own."""
-_SHORT: Final = 0.5
-"""Runs shorter than this [s] are shown in milliseconds."""
+_EVEN: Final = 241  #: Moments of results without pressure frames of their own.
+_SHORT: Final = 0.5  #: Runs shorter than this [s] are shown in milliseconds.
 
 
 def time_unit(dataset: xr.Dataset) -> tuple[str, float]:
@@ -67,10 +65,9 @@ def clock(dataset: xr.Dataset) -> dict[str, Any] | None:
     return shown
 
 
+#: Largest error of a straight line for the motion in a clearance, over the clearance.
 LINE_ERROR: Final = 0.002
-"""Largest error of a straight line for the motion in a clearance, over the clearance."""
-_MOST: Final = 16
-"""Samples between two rows, at most."""
+_MOST: Final = 16  #: Samples between two rows, at most.
 
 
 def dense_times(time: FloatArray, values: FloatArray, rates: FloatArray, tolerance: float) -> FloatArray:
@@ -101,8 +98,7 @@ def dense_times(time: FloatArray, values: FloatArray, rates: FloatArray, toleran
     return np.append(begin + length * number / np.repeat(pieces, pieces), time[-1])
 
 
-_SHOWN: Final = 0.35
-"""Clearance as a scene first shows it, over the radius of the shaft."""
+_SHOWN: Final = 0.35  #: Clearance as a scene first shows it, over the radius of the shaft.
 
 
 def magnification(ratio: float) -> dict[str, Any]:

@@ -25,38 +25,23 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+#: Data for the script of a figure: texts, numbers, lists, mappings and arrays.
 Payload: TypeAlias = Mapping[str, Any]
-"""Data for the script of a figure: texts, numbers, lists, mappings and arrays."""
 
 
 @dataclass(frozen=True)
 class Section:
-    """One figure of the page, drawn in the browser from data that travel with it.
+    """One figure of the page, drawn in the browser from data that travel with it."""
 
-    Attributes
-    ----------
-    name
-        Identifier in the page, unique among the sections of a page.
-    title
-        What it shows.
-    caption
-        How to read it, in a sentence or two.
-    needs
-        Names of the variables without which it is left out; the page says that they are its data.
-    widget
-        Which script draws it: a name in ``widgets`` of ``assets``.
-    data
-        Returns what the script reads, or nothing where the result does not hold enough to draw.
-    still
-        Name of the figure in ``figures/`` that stands for it on paper and where scripts do not run.
-    """
-
-    name: str
-    title: str
-    caption: str
+    name: str  #: Identifier in the page, unique among the sections of a page.
+    title: str  #: What it shows.
+    caption: str  #: How to read it, in a sentence or two.
+    #: Names of the variables without which it is left out; the page says that they are its data.
     needs: tuple[str, ...]
-    widget: str
+    widget: str  #: Which script draws it: a name in ``widgets`` of ``assets``.
+    #: Returns what the script reads, or nothing where the result does not hold enough to draw.
     data: Callable[[xr.Dataset], Payload | None]
+    #: Name of the figure in ``figures/`` that stands for it on paper and where scripts do not run.
     still: str = ""
 
     def payload(self, dataset: xr.Dataset) -> Payload | None:
@@ -68,33 +53,19 @@ class Section:
 
 @dataclass(frozen=True)
 class Chapter:
-    """Sections under one heading.
+    """Sections under one heading."""
 
-    Attributes
-    ----------
-    name
-        Identifier in the page.
-    title
-        Heading; also its entry in the table of contents.
-    lead
-        A sentence below the heading.
-    sections
-        In reading order.
-    playback
-        Whether the sections follow the time slider, which then stands with them.
-    """
-
-    name: str
-    title: str
-    lead: str
-    sections: tuple[Section, ...]
-    playback: bool = False
+    name: str  #: Identifier in the page.
+    title: str  #: Heading; also its entry in the table of contents.
+    lead: str  #: A sentence below the heading.
+    sections: tuple[Section, ...]  #: In reading order.
+    playback: bool = False  #: Whether the sections follow the time slider, which then stands with them.
 
 
+#: Lead of a chapter of charts.
 OVER_TIME: Final = (
     "Drag across a plot to zoom. By keyboard: go to a plot with Tab, then +, −, arrows, and 0 for the whole."
 )
-"""Lead of a chapter of charts."""
 
 
 def choice(widget: str, label: str, parts: Mapping[str, Payload | None]) -> Payload | None:
@@ -115,12 +86,9 @@ def choice(widget: str, label: str, parts: Mapping[str, Payload | None]) -> Payl
     return {"widget": widget, "label": label, "names": list(there), "parts": list(there.values())}
 
 
-_MOST: Final = 6
-"""Joints over whose angle a reader may have charts."""
-_FINE: Final = 0.02
-"""Rounding of such an angle on a page [deg]."""
-_LEAST: Final = 1.0
-"""Range of an angle over which a chart is of use [deg]."""
+_MOST: Final = 6  #: Joints over whose angle a reader may have charts.
+_FINE: Final = 0.02  #: Rounding of such an angle on a page [deg].
+_LEAST: Final = 1.0  #: Range of an angle over which a chart is of use [deg].
 
 
 def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:

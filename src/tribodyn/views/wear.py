@@ -13,8 +13,8 @@ from tribodyn.views.events import peak, series
 from tribodyn.views.numbers import LENGTHS, in_words
 from tribodyn.views.section import Payload, Section
 
-UNITS: Final = dict(reversed(LENGTHS[:-1]))
-"""Units of depth [m], the coarsest first."""
+UNITS: Final = dict(reversed(LENGTHS[:-1]))  #: Units of depth [m], the coarsest first.
+#: Chart below the depth where a result has one: label, size of its unit, and curves by their names.
 PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
     (
         "peak pressure [MPa]",
@@ -30,7 +30,6 @@ PANELS: Final[tuple[tuple[str, float, Mapping[str, str]], ...]] = (
         {"wear_angle_error_max": "largest in the cycle", "wear_angle_error_rms": "rms over the cycle"},
     ),
 )
-"""Chart below the depth where a result has one: label, size of its unit, and curves by their names."""
 
 
 def fitting_unit(largest: float) -> tuple[str, float]:
@@ -82,11 +81,11 @@ def _history(dataset: xr.Dataset) -> list[Panel]:
     return drawn
 
 
+#: Caption of maps of the wear depth.
 WORN: Final = (
     "Wear depth at the nominal wear rate: after the cycles of the wear campaign, or else a linear estimate "
     "for this run, in which the worn shape does not change the pressure."
 )
-"""Caption of maps of the wear depth."""
 WEAR_MAP: Final = Section(
     name="wear",
     title="Wear depth of the bushing",

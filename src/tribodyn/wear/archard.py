@@ -14,18 +14,10 @@ from tribodyn.core.arrays import FloatArray
 
 @dataclass(frozen=True)
 class Archard:
-    """Archard's law with a constant rate.
+    """Archard's law with a constant rate."""
 
-    Attributes
-    ----------
-    specific_rate
-        Specific wear rate C_w [m²/N], one or one for each node.
-    hardness_divisor
-        What the paper divides the rate by, a number without a unit; 0 is off.
-    """
-
-    specific_rate: float | FloatArray
-    hardness_divisor: float = 0.0
+    specific_rate: float | FloatArray  #: Specific wear rate C_w [m²/N], one or one for each node.
+    hardness_divisor: float = 0.0  #: What the paper divides the rate by, a number without a unit; 0 is off.
 
     @property
     def rate(self) -> float | FloatArray:

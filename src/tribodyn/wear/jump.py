@@ -20,27 +20,17 @@ from tribodyn.core.arrays import FloatArray
 
 _GROWTH: Final = 2.0
 _SHRINKAGE: Final = 0.5
+#: Least jump as a share of the first one: what two equal cycles differ by must not stop a campaign.
 _LEAST_SHARE: Final = 0.1
-"""Least jump as a share of the first one: what two equal cycles differ by must not stop a campaign."""
 
 
 @dataclass(frozen=True)
 class JumpControl:
-    """Chooses the length of jumps.
+    """Chooses the length of jumps."""
 
-    Attributes
-    ----------
-    limit
-        Change of the sliding load over a jump that is aimed at, relative to its peak.
-    depth
-        Largest gain of depth in a jump, in units of ``roughness``.
-    roughness
-        Combined rms roughness σ [m].
-    """
-
-    limit: float
-    depth: float
-    roughness: float
+    limit: float  #: Change of the sliding load over a jump that is aimed at, relative to its peak.
+    depth: float  #: Largest gain of depth in a jump, in units of ``roughness``.
+    roughness: float  #: Combined rms roughness σ [m].
 
     @property
     def first(self) -> float:

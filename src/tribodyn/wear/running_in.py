@@ -19,10 +19,8 @@ import numpy as np
 from mebdf.kernels.elementary import portable
 from tribodyn.core.arrays import FloatArray
 
-_HIGHEST: Final = 8.0
-"""Level above which nothing is cut off: 1e-16 of the heights."""
-_DEEPEST: Final = 10.0
-"""Depth beyond which nothing of the old surface is left: level within 1e-12."""
+_HIGHEST: Final = 8.0  #: Level above which nothing is cut off: 1e-16 of the heights.
+_DEEPEST: Final = 10.0  #: Depth beyond which nothing of the old surface is left: level within 1e-12.
 _BISECTIONS: Final = 80
 
 

@@ -11,8 +11,7 @@ from typing import Final
 
 import numpy as np
 
-LEAST: Final = 1.5
-"""Least factor up and down: two equal pin-on-disc tests of PPS with PTFE differ by 1.37."""
+LEAST: Final = 1.5  #: Least factor up and down: two equal pin-on-disc tests of PPS with PTFE differ by 1.37.
 _LEVEL: Final = 0.95
 
 

@@ -17,31 +17,23 @@ from tornado.httputil import HTTPHeaders, HTTPMessageDelegate, HTTPServerRequest
 from tornado.routing import Router
 from tornado.web import Application
 
+#: Names in addresses: of the token that the browser is opened with, and of the secret of the page.
 TOKEN, SECRET = "token", "secret"
-"""Names in addresses: of the token that the browser is opened with, and of the secret of the page."""
-_SHOWN: Final = ("/", "/assets/")
-"""Beginnings of addresses without secrets: the page and its assets."""
+_SHOWN: Final = ("/", "/assets/")  #: Beginnings of addresses without secrets: the page and its assets.
 _BYTES: Final = 32
 _REFUSED: Final = b"403: this page is open in another browser. `tribodyn workbench` opens one for this.\n"
 
 
 @dataclass
 class UserSession:
-    """Session of the user: a token that can be exchanged once for a cookie and the secret of the page.
+    """Session of the user: a token that can be exchanged once for a cookie and the secret of the page."""
 
-    Attributes
-    ----------
-    token
-        What the browser is opened with.
-    cookie
-        What a browser sends with every request from then on.
-    secret
-        Held by the pages alone, and part of every request for more than the page. A browser sends a cookie
-        to every port of the name that it came from, but gives this to pages of this port alone.
-    """
-
+    #: What the browser is opened with.
     token: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
+    #: What a browser sends with every request from then on.
     cookie: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
+    #: Held by the pages alone, and part of every request for more than the page. A browser sends a cookie to
+    #: every port of the name that it came from, but gives this to pages of this port alone.
     secret: str = field(default_factory=lambda: secrets.token_urlsafe(_BYTES))
     _used: bool = False
 
@@ -67,18 +59,10 @@ def same(given: str, wanted: str) -> bool:
 
 @dataclass(frozen=True)
 class Endpoint:
-    """Address of the server.
+    """Address of the server."""
 
-    Attributes
-    ----------
-    hosts
-        What may stand in the header Host: names with ports, as browsers write them.
-    cookie
-        Name of the cookie.
-    """
-
-    hosts: frozenset[str]
-    cookie: str
+    hosts: frozenset[str]  #: What may stand in the header Host: names with ports, as browsers write them.
+    cookie: str  #: Name of the cookie.
 
     def headers(self, host: str = "") -> dict[str, str]:
         """Return the headers of an answer to a request with a valid host, or of a refusal.

@@ -15,28 +15,19 @@ from tribodyn.cases.units import LISTS, number_in, to_si
 from tribodyn.mechanisms.self_checks import ROUGH_LIMIT
 from tribodyn.studies.variation import written
 
-_MOST_STEPS: Final = 10
-"""Steps from zero to the value of the case, at least."""
-_BEYOND: Final = 2.5
-"""Least ratio of the slider's upper end to the value of the case."""
+_MOST_STEPS: Final = 10  #: Steps from zero to the value of the case, at least.
+_BEYOND: Final = 2.5  #: Least ratio of the slider's upper end to the value of the case.
 _ROUND: Final = (Decimal(1), Decimal(2), Decimal(5), Decimal(10))
 
 
 @dataclass(frozen=True)
 class Track:
-    """Range of a slider, in the unit in which the key is shown.
+    """Range of a slider, in the unit in which the key is shown."""
 
-    Attributes
-    ----------
-    least, greatest
-        Its ends; no value between them breaks a limit of the key alone.
-    step
-        All values that it gives are multiples of this.
-    """
-
+    #: Its ends; no value between them breaks a limit of the key alone.
     least: float
     greatest: float
-    step: float
+    step: float  #: All values that it gives are multiples of this.
 
 
 def track(key: Key, value: float | None, lowest: float | None = None) -> Track | None:
@@ -108,12 +99,10 @@ def _inside(limits: dict[str, float], open_: str, closed: str, step: Decimal) ->
     return Decimal("Infinity")
 
 
-FIRST: Final = 8
-"""Controls that a page shows without being asked."""
-FILE: Final = "file"
-"""Kind of the keys that name files: no page may turn them."""
+FIRST: Final = 8  #: Controls that a page shows without being asked.
+FILE: Final = "file"  #: Kind of the keys that name files: no page may turn them.
+#: Lowest value of a parameter that is positive (SI): its slider begins at its first step.
 _ABOVE_ZERO: Final = 1.0e-300
-"""Lowest value of a parameter that is positive (SI): its slider begins at its first step."""
 _NO_TRACK: Final = {"least": None, "greatest": None, "step": None}
 
 
@@ -182,8 +171,8 @@ def _number(value: Value | None) -> float | None:
     return float(value) if plain else None  # type: ignore[arg-type]
 
 
+#: Beginning of a meaning that continues from the name of its key.
 _GOES_ON: Final = re.compile(r"(at|between|by|for|from|in|its|linear|of|over|where|which|with)\b")
-"""Beginning of a meaning that continues from the name of its key."""
 
 
 def label(case: Case, key: Key) -> str:

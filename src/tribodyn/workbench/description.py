@@ -12,8 +12,7 @@ from tribodyn.workbench.controls import controls
 from tribodyn.workbench.edits import addable, removable
 from tribodyn.workbench.variant import SAVED, Origin
 
-DOWNLOADS: Final = (SAVED, "result.nc", "report.html")
-"""Files of a run that a page can save."""
+DOWNLOADS: Final = (SAVED, "result.nc", "report.html")  #: Files of a run that a page can save.
 
 
 def description(origin: Origin) -> dict[str, Any]:

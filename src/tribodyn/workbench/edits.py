@@ -15,8 +15,8 @@ from tribodyn.workbench.controls import FILE
 from tribodyn.workbench.messages import Edit, Values
 from tribodyn.workbench.variant import NO_FILES, Origin
 
+#: Keys that name a part, with the table of that part.
 _NAMED: Final = {"between": "bodies", "body": "bodies", "joint": "joints"}
-"""Keys that name a part, with the table of that part."""
 
 
 def edited(origin: Origin, edit: Edit) -> Origin:

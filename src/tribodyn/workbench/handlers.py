@@ -19,8 +19,8 @@ from tribodyn.workbench.variant import SAVED
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
 PAGE: Final = "page.html"
+#: Folders of assets; of two with one name the later one is served.
 _FOLDERS: Final = ("tribodyn.report.assets", "tribodyn.workbench.assets")
-"""Folders of assets; of two with one name the later one is served."""
 _KINDS: Final = {
     ".js": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -29,39 +29,28 @@ _KINDS: Final = {
     ".toml": "text/plain; charset=utf-8",
     ".nc": "application/x-netcdf",
 }
+#: A page that leads to ours: a browser that is redirected from another site would leave the cookie out.
 _ARRIVED: Final = (
     b'<!doctype html><html lang="en"><meta charset="utf-8"><title>tribodyn</title>'
     b'<link rel="icon" href="data:,"><meta http-equiv="refresh" content="0; url=/">'
     b'<p><a href="/">The workbench</a></html>\n'
 )
-"""A page that leads to ours: a browser that is redirected from another site would leave the cookie out."""
+#: Place of the secret in the page, without and with one.
 _EMPTY, _FILLED = b'name="secret" content=""', b'name="secret" content="%s"'
-"""Place of the secret in the page, without and with one."""
-_BACKLOG: Final = 200_000_000
-"""Most bytes on their way to a page that does not read them."""
-_BURST: Final = 1.0
-"""Time for which messages may come as fast as they like [s]."""
+_BACKLOG: Final = 200_000_000  #: Most bytes on their way to a page that does not read them.
+_BURST: Final = 1.0  #: Time for which messages may come as fast as they like [s].
 
 
 @dataclass
 class ServerContext:
-    """Objects that all handlers share.
+    """Objects that all handlers share."""
 
-    Attributes
-    ----------
-    state, endpoint, session
-        See there.
-    assets
-        Content by name.
-    log_error
-        Called with internal errors.
-    """
-
+    #: See there.
     state: ServerState
     endpoint: Endpoint
     session: UserSession
-    assets: Mapping[str, bytes]
-    log_error: Callable[[str], None]
+    assets: Mapping[str, bytes]  #: Content by name.
+    log_error: Callable[[str], None]  #: Called with internal errors.
     sockets: int = 0
 
 

@@ -9,15 +9,13 @@ from typing import Any, Final, TypeAlias
 from tribodyn.core.quoting import brief
 from tribodyn.views.encode import block
 
-LARGEST: Final = 65_536
-"""Length of a message [bytes]."""
+LARGEST: Final = 65_536  #: Length of a message [bytes].
 _MOST_VALUES: Final = 200
 _LONGEST_KEY, _LONGEST_TEXT = 200, 2000
 _LARGEST_NUMBER: Final = 2**32
 _EDIT_FIELDS: Final = ("template", "removed", "added")
 _RUN_DIGITS: Final = 16
-_POINTS: Final = (9, 25)
-"""Least and greatest number of points of a sweep."""
+_POINTS: Final = (9, 25)  #: Least and greatest number of points of a sweep.
 
 Values: TypeAlias = Mapping[str, str]
 
@@ -28,21 +26,11 @@ class InvalidMessage(ValueError):
 
 @dataclass(frozen=True)
 class Edit:
-    """Difference of a model from the case of the workbench.
+    """Difference of a model from the case of the workbench."""
 
-    Attributes
-    ----------
-    template
-        Name of the template that it starts from; empty for the case of the workbench.
-    removed
-        Dotted paths of the tables that are left out.
-    added
-        Values of the tables that are added, by dotted path.
-    """
-
-    template: str = ""
-    removed: tuple[str, ...] = ()
-    added: Values = field(default_factory=dict)
+    template: str = ""  #: Name of the template that it starts from; empty for the case of the workbench.
+    removed: tuple[str, ...] = ()  #: Dotted paths of the tables that are left out.
+    added: Values = field(default_factory=dict)  #: Values of the tables that are added, by dotted path.
 
 
 @dataclass(frozen=True)
@@ -163,6 +151,7 @@ def _pin(kept: bool) -> Callable[[Mapping[str, Any]], Pin]:
     return made
 
 
+#: Fields and constructors of all messages, by their type.
 _KINDS: Final[dict[str, tuple[frozenset[str], Callable[[Mapping[str, Any]], Message]]]] = {
     "run": (frozenset({"number", "values", "rest", "agreed", "edit"}), _run),
     "drawn": (frozenset({"number"}), lambda said: Drawn(_number(said))),
@@ -175,7 +164,6 @@ _KINDS: Final[dict[str, tuple[frozenset[str], Callable[[Mapping[str, Any]], Mess
         lambda said: SlopeRequest(_number(said), _text(said, "key"), _values(said)),
     ),
 }
-"""Fields and constructors of all messages, by their type."""
 
 
 def _number(said: Mapping[str, Any]) -> int:
@@ -220,8 +208,7 @@ def _value(key: str, value: object) -> str:
 
 
 MAGIC: Final = 0x31464254
-KEPT: Final = 1
-"""Flag of a frame that was computed for an earlier request."""
+KEPT: Final = 1  #: Flag of a frame that was computed for an earlier request.
 _START: Final = struct.Struct("<IIII")
 
 

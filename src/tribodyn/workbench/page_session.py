@@ -35,14 +35,10 @@ from tribodyn.workbench.server_state import ServerState, in_words, refusal, refu
 from tribodyn.workbench.variant import Origin, Variant, neighbours
 from tribodyn.workbench.worker_pool import Failed, GivenUp, Job
 
-_UNDRAWN: Final = 5.0
-"""Time after which a page that says nothing is taken to have drawn [s]."""
-_CALM: Final = 0.3
-"""Time without a request after which neighbours are computed [s]."""
-_UNHURRIED: Final = 0.25
-"""Pause after a request that is not served while a slider is dragged [s]."""
-_REPORTED: Final = 1.0
-"""Expected time from which the progress of a run is reported [s]."""
+_UNDRAWN: Final = 5.0  #: Time after which a page that says nothing is taken to have drawn [s].
+_CALM: Final = 0.3  #: Time without a request after which neighbours are computed [s].
+_UNHURRIED: Final = 0.25  #: Pause after a request that is not served while a slider is dragged [s].
+_REPORTED: Final = 1.0  #: Expected time from which the progress of a run is reported [s].
 
 Send = Callable[[str | bytes], None]
 

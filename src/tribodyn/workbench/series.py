@@ -20,8 +20,7 @@ from tribodyn.workbench.server_state import ServerState, in_words, refuse_rows
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.worker_pool import Failed, GivenUp
 
-AROUND: Final = (-0.10, -0.05, 0.0, 0.05, 0.10)
-"""Points at which a slope is fitted, relative to the value."""
+AROUND: Final = (-0.10, -0.05, 0.0, 0.05, 0.10)  #: Points at which a slope is fitted, relative to the value.
 _DIGITS: Final = 10
 
 Report = Callable[[Mapping[str, Any]], None]
@@ -31,24 +30,12 @@ Said = Callable[[Sequence[Point], bool], dict[str, Any]]
 
 @dataclass(frozen=True)
 class SeriesPlan:
-    """Runs along a key.
+    """Runs along a key."""
 
-    Attributes
-    ----------
-    number
-        Of the request.
-    variants
-        What is run.
-    key
-        The key that they differ in.
-    say
-        Returns the message after each point, from all points so far and whether it was the last.
-    """
-
-    number: int
-    variants: Sequence[Variant]
-    key: Key
-    say: Said
+    number: int  #: Of the request.
+    variants: Sequence[Variant]  #: What is run.
+    key: Key  #: The key that they differ in.
+    say: Said  #: Returns the message after each point, from all points so far and whether it was the last.
 
 
 class Series:

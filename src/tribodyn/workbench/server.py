@@ -29,11 +29,9 @@ _ADDRESS_6: Final = "::1"
 _ATTEMPTS: Final = 20
 _BACKLOG: Final = 128
 _NAME_BYTES: Final = 16
-_LISTEN: Final = 0.2
-"""Time between two looks at whether to stop [s]."""
+_LISTEN: Final = 0.2  #: Time between two looks at whether to stop [s].
 _LARGEST_HEADER: Final = 16_384
-_WORKERS: Final = 2
-"""Workers by default, at least: one for what is dragged, one for what nobody waits for."""
+_WORKERS: Final = 2  #: Workers by default, at least: one for what is dragged, one for what nobody waits for.
 _MOST_WORKERS: Final = 4
 
 

@@ -18,26 +18,19 @@ from tribodyn.workbench.messages import LARGEST, Edit
 from tribodyn.workbench.variant import Origin, Variant
 from tribodyn.workbench.worker_pool import Failed, Job, WorkerPool
 
-MOST_ROWS: Final = 100_000
-"""Rows of a result that a page is sent, at most."""
+MOST_ROWS: Final = 100_000  #: Rows of a result that a page is sent, at most.
+#: Number of runs from which the next one is estimated: a single one may have met a busy machine.
 _LAST: Final = 5
-"""Number of runs from which the next one is estimated: a single one may have met a busy machine."""
-_NO_GRID: Final = ("run", "wear")
-"""Tables whose whole numbers do not say how fine a grid is."""
+_NO_GRID: Final = ("run", "wear")  #: Tables whose whole numbers do not say how fine a grid is.
+#: Exponent of the number of steps over the relative tolerance, for a method of the fourth order or so.
 _TOLERANCE_POWER: Final = -0.2
-"""Exponent of the number of steps over the relative tolerance, for a method of the fourth order or so."""
 
 
 @dataclass
 class Costs:
-    """Seconds that runs took, by their equations.
+    """Seconds that runs took, by their equations."""
 
-    Attributes
-    ----------
-    seconds
-        Of the last runs with these equations, for a case of size one.
-    """
-
+    #: Of the last runs with these equations, for a case of size one.
     seconds: Mapping[Choices, tuple[float, ...]] = field(default_factory=dict)
 
     def note(self, case: Case, seconds: float) -> None:
@@ -96,23 +89,13 @@ MOST_CASES: Final = 1000
 
 @dataclass
 class KeptRuns:
-    """Runs that the pages have shown.
+    """Runs that the pages have shown."""
 
-    Attributes
-    ----------
-    room
-        Size of the frames that are kept [bytes]; the last one is kept in any case.
-    cases
-        Texts of cases by the names of their runs, the latest last.
-    frames
-        Bodies of frames, likewise.
-    pins
-        How often each pinned run is pinned; neither its case nor its frame is forgotten.
-    """
-
-    room: int
+    room: int  #: Size of the frames that are kept [bytes]; the last one is kept in any case.
+    #: Texts of cases by the names of their runs, the latest last.
     cases: OrderedDict[str, str] = field(default_factory=OrderedDict)
-    frames: OrderedDict[str, bytes] = field(default_factory=OrderedDict)
+    frames: OrderedDict[str, bytes] = field(default_factory=OrderedDict)  #: Bodies of frames, likewise.
+    #: How often each pinned run is pinned; neither its case nor its frame is forgotten.
     pins: Counter[str] = field(default_factory=Counter)
     _size: int = 0
 
@@ -163,67 +146,38 @@ class KeptRuns:
             del self.cases[run]
 
 
-_LEAST_SHARE: Final = 0.01
-"""Share of a long run that counts as completed when no progress was reported."""
+_LEAST_SHARE: Final = 0.01  #: Share of a long run that counts as completed when no progress was reported.
 OnEvent = Callable[[Mapping[str, Any]], None]
 
 
 @dataclass(frozen=True)
 class Rules:
-    """Limits of what pages may request.
+    """Limits of what pages may request."""
 
-    Attributes
-    ----------
-    dragged
-        Expected time of a run up to which it is made while a slider is dragged [s].
-    unasked
-        Expected time up to which the user need not agree [s].
-    longest
-        Time that a run may take [s].
-    pins, sockets
-        Pinned runs of a socket; sockets of the server.
-    messages
-        Messages a second that are read from a socket.
-    room
-        Size of the frames that are kept [bytes].
-    """
-
-    dragged: float = 2.0
-    unasked: float = 10.0
-    longest: float = 900.0
+    dragged: float = 2.0  #: Expected time of a run up to which it is made while a slider is dragged [s].
+    unasked: float = 10.0  #: Expected time up to which the user need not agree [s].
+    longest: float = 900.0  #: Time that a run may take [s].
+    #: Pinned runs of a socket; sockets of the server.
     pins: int = 8
     sockets: int = 32
-    messages: int = 60
-    room: int = 100_000_000
+    messages: int = 60  #: Messages a second that are read from a socket.
+    room: int = 100_000_000  #: Size of the frames that are kept [bytes].
 
 
 @dataclass
 class ServerState:
-    """State that all pages of a server share.
+    """State that all pages of a server share."""
 
-    Attributes
-    ----------
-    origin
-        The case it was started with.
-    pool
-        The workers.
-    rules
-        Limits of what pages may request.
-    status
-        The last status reported to all pages: ``state``, ``message`` and ``seconds``.
-    listeners
-        Called with every new one.
-    downloading
-        Held while a file is made: one at a time.
-    """
-
-    origin: Origin
-    pool: WorkerPool
-    rules: Rules = field(default_factory=Rules)
+    origin: Origin  #: The case it was started with.
+    pool: WorkerPool  #: The workers.
+    rules: Rules = field(default_factory=Rules)  #: Limits of what pages may request.
     costs: Costs = field(default_factory=Costs)
+    #: The last status reported to all pages: ``state``, ``message`` and ``seconds``.
     status: dict[str, Any] = field(default_factory=dict)
+    #: Called with every new one.
     listeners: list[Callable[[Mapping[str, Any]], None]] = field(default_factory=list)
     ready: asyncio.Event = field(default_factory=asyncio.Event)
+    #: Held while a file is made: one at a time.
     downloading: asyncio.Lock = field(default_factory=asyncio.Lock)
 
     @cached_property

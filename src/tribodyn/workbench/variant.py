@@ -18,30 +18,19 @@ from tribodyn.workbench.controls import FILE, shown_number, text, track, turnabl
 from tribodyn.workbench.messages import Values
 
 _DIGITS: Final = 16
-SAVED: Final = "case.toml"
-"""Name of the file as which a page saves a case."""
+SAVED: Final = "case.toml"  #: Name of the file as which a page saves a case.
 NO_FILES: Final = "a page may not name files of this machine; start the workbench with a case that does"
 
 
 @dataclass(frozen=True)
 class Origin:
-    """The case that a workbench was started with.
+    """The case that a workbench was started with."""
 
-    Attributes
-    ----------
-    case
-        The case.
-    name
-        As it was given: a built-in case or a file.
-    changes
-        Values that were changed there and then, by dotted path.
-    edited
-        Whether a page has edited it: then its runs are made from the file that the page saves.
-    """
-
-    case: Case
-    name: str
+    case: Case  #: The case.
+    name: str  #: As it was given: a built-in case or a file.
+    #: Values that were changed there and then, by dotted path.
     changes: Mapping[str, str] = field(default_factory=dict)
+    #: Whether a page has edited it: then its runs are made from the file that the page saves.
     edited: bool = False
 
     @cached_property
@@ -79,21 +68,11 @@ class Origin:
 
 @dataclass(frozen=True)
 class Variant:
-    """A case as the page wants it.
+    """A case as the page wants it."""
 
-    Attributes
-    ----------
-    origin
-        What it was made from.
-    case
-        The case.
-    values
-        What the page changed, as texts in the units of the keys.
-    """
-
-    origin: Origin
-    case: Case
-    values: Mapping[str, str]
+    origin: Origin  #: What it was made from.
+    case: Case  #: The case.
+    values: Mapping[str, str]  #: What the page changed, as texts in the units of the keys.
 
     @cached_property
     def toml(self) -> str:

@@ -28,27 +28,17 @@ Progress = Callable[[float], None]
 Stop = Callable[[], bool]
 
 EVENT, RESULT, FAILURE, GIVEN_UP = b"e", b"r", b"f", b"s"
-STOP: Final = b"{}"
-"""Message that stops the work under way; a worker that has finished ignores it."""
-_EVENTS_APART: Final = 0.5
-"""Least time between two events [s]."""
+STOP: Final = b"{}"  #: Message that stops the work under way; a worker that has finished ignores it.
+_EVENTS_APART: Final = 0.5  #: Least time between two events [s].
 _GB: Final = 1e9
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a worker.
+    """Limits of a worker."""
 
-    Attributes
-    ----------
-    memory
-        Address space beyond what it has when it starts [bytes]; kept on Linux.
-    result
-        Size of a result [bytes].
-    """
-
-    memory: int = 4_000_000_000
-    result: int = 100_000_000
+    memory: int = 4_000_000_000  #: Address space beyond what it has when it starts [bytes]; kept on Linux.
+    result: int = 100_000_000  #: Size of a result [bytes].
 
 
 class Interrupted(Exception):
@@ -136,8 +126,7 @@ def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     return dataset
 
 
-WORK: Final = {"picture": picture, "result.nc": result, "report.html": report}
-"""All kinds of work, by name."""
+WORK: Final = {"picture": picture, "result.nc": result, "report.html": report}  #: All kinds of work, by name.
 
 
 def reply(limits: Limits, message: bytes, connection: Connection) -> bytes | None:

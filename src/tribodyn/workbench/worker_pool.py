@@ -13,8 +13,7 @@ from tribodyn.core.errors import TribodynError
 from tribodyn.core.workers import DEATHS, DIED, Service, WorkerProcess
 from tribodyn.workbench.work import EVENT, FAILURE, GIVEN_UP, RESULT, STOP, Limits, reply
 
-_PATIENCE: Final = 2.0
-"""Time that a worker has to stop before it is killed [s]."""
+_PATIENCE: Final = 2.0  #: Time that a worker has to stop before it is killed [s].
 
 
 class Failed(Exception):
@@ -27,30 +26,17 @@ class GivenUp(Exception):
 
 @dataclass(eq=False)
 class Job:
-    """One task for a worker.
+    """One task for a worker."""
 
-    Attributes
-    ----------
-    order
-        What is sent: ``work`` and ``case``, and what that work takes.
-    seconds
-        Time that it may take.
-    background
-        Whether nobody waits for it.
-    on_event
-        Called with the progress that a worker reports.
-    """
-
-    order: Mapping[str, Any]
-    seconds: float
-    background: bool = False
+    order: Mapping[str, Any]  #: What is sent: ``work`` and ``case``, and what that work takes.
+    seconds: float  #: Time that it may take.
+    background: bool = False  #: Whether nobody waits for it.
+    #: Called with the progress that a worker reports.
     on_event: Callable[[Mapping[str, Any]], None] = lambda event: None
     answer: asyncio.Future[bytes] = field(init=False)
     deaths: int = 0
-    took: float = 0.0
-    """Time that the worker needed at the last attempt [s]."""
-    verdict: Exception | None = None
-    """Why it was stopped."""
+    took: float = 0.0  #: Time that the worker needed at the last attempt [s].
+    verdict: Exception | None = None  #: Why it was stopped.
 
     def __post_init__(self) -> None:
         self.answer = asyncio.get_running_loop().create_future()

@@ -9,8 +9,7 @@ import pytest
 
 from benchmarks.__main__ import NAMES
 
-LASTING = ("long_run", "vsv", "workbench")
-"""These take many seconds even so."""
+LASTING = ("long_run", "vsv", "workbench")  #: These take many seconds even so.
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from tribodyn.cases import Key, keys_of
 from tribodyn.cases.keys import ValueProblem, shown, toml_string
 from tribodyn.mechanisms.catalogue import built_in
 
+#: Keys of each built-in case; together some five thousand.
 KEYS = {name: list(keys_of(entry.model).values()) for name, entry in built_in().items()}
-"""Keys of each built-in case; together some five thousand."""
 
 
 def is_documented(key: Key) -> bool:

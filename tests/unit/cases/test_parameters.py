@@ -108,6 +108,7 @@ TEMPERATURES = {
     "K_1": evaluate("363.15 K", {}),
     "dT": evaluate("10 K", {}),
 }
+#: Temperatures [K]: 90 and 20 degC, 363.15 K, and a difference of 10 K.
 RIGHT = {
     "T": 363.15,
     "T + 10 K": 373.15,
@@ -142,7 +143,6 @@ RIGHT = {
     "T + 0": 363.15,
     "0 + T": 363.15,
 }
-"""Temperatures [K]: 90 and 20 degC, 363.15 K, and a difference of 10 K."""
 NO_TEMPERATURE = {
     "T + 10 degC": "2 times the zero of degC",
     "2 * T": "2 times the zero of degC",

@@ -15,11 +15,11 @@ from tribodyn.cli.main import COMMANDS, main
 HEAVY = ("numpy", "numba", "scipy", "pydantic", "pint", "xarray", "matplotlib", "tqdm", "importlib.metadata")
 
 
+#: Libraries that no run and no sweep of ``vsv`` without figures needs.
 UNNEEDED = (
     *("pint", "dask", "matplotlib", "jinja2", "numpy.f2py", "scipy.integrate", "scipy.interpolate"),
     *("scipy.linalg", "scipy.optimize", "scipy.sparse", "scipy.special", "numba.np.arrayobj"),
 )
-"""Libraries that no run and no sweep of ``vsv`` without figures needs."""
 
 
 def test_help_imports_nothing_heavy() -> None:

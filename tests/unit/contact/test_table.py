@@ -11,8 +11,8 @@ from tribodyn.contact.table import onset_share
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import pressure_and_damping
 
+#: Off the nodes, closer together where the pressure is small.
 SEPARATIONS = -4.0 + 12.0 * np.sqrt(np.arange(1, 48) / 48.0)
-"""Off the nodes, closer together where the pressure is small."""
 
 
 def gauss(z: float) -> float:

@@ -7,8 +7,7 @@ import pytest
 from tribodyn.core.files import named
 
 LONG = 100_000
-QUICK = 1.0
-"""Processor time of any header of this length [s]; a thousand times what it takes."""
+QUICK = 1.0  #: Processor time of any header of this length [s]; a thousand times what it takes.
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from typing import Final
 ROOT: Final = Path(__file__).parents[3]
 DOCS: Final = ROOT / "docs"
 SOLVER: Final = ROOT / "packages" / "mebdf" / "README.md"
+#: Tables and numbers that ``docs/fill.py`` writes, front matter, fences, code, formulas, roles, links.
 REMOVED: Final = (
     re.compile(r"<!-- (?:table|made): .*?<!-- end -->", re.DOTALL),
     re.compile(r"<!--= .*?<!--/-->"),
@@ -19,17 +20,16 @@ REMOVED: Final = (
     re.compile(r"\$[^$]*\$"),
     re.compile(r"(?<=\])\([^)]*\)"),
 )
-"""Tables and numbers that ``docs/fill.py`` writes, front matter, fences, code, formulas, roles, links."""
 UNITS: Final = (
     "%|°|µm/s|mm/s|m/s²|m/s|rad/s|MPa/µm|MPa|GPa|kPa|Pa s|Pa|µm|nm|mm³|mm|m²/N|m|kN|mN|N mm|N m|N|µs|ms|s/m|s"
     "|mJ|J|Hz|kHz|mrad|rad|K|g|kg|kg m²|σ|MB|cycles|steps|times|revolutions"
 )
+#: A number with its unit, and any number with a point or an exponent.
 NUMBER: Final = re.compile(
     rf"(?<![\w.])[+−-]?\d+(?:[.,]\d+)*(?:e[+-]?\d+)?\s?(?:{UNITS})(?![\w²³])"
     r"|(?<![\w.])[+−-]?\d+\.\d+(?:e[+-]?\d+)?(?![\w.])"
     r"|(?<![\w.])\d+e[+-]?\d+(?!\w)"
 )
-"""A number with its unit, and any number with a point or an exponent."""
 
 
 def pages() -> list[Path]:

@@ -12,12 +12,12 @@ import tribodyn as td
 
 MODULES = ("tribodyn", "tribodyn.contact", "tribodyn.integrate", "tribodyn.studies", "tribodyn.surfaces")
 SECTIONS = ("Parameters", "Returns", "Raises")
+#: Public functions that raise nothing of their own, and why.
 NOTHING_RAISED = {
     "lined": "arithmetic on a table that exists",
     "moments": "arithmetic on heights; no height gives NaN",
     "statistics": "empty where nothing was sampled",
 }
-"""Public functions that raise nothing of their own, and why."""
 
 
 def public_members() -> Iterator[Any]:

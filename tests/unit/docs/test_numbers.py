@@ -18,8 +18,8 @@ sys.path.pop(0)
 
 LIST = Path(__file__).parent / "numbers_by_hand.toml"
 LISTED: dict[str, dict[str, list[str]]] = tomllib.loads(LIST.read_text(encoding="utf-8"))
+#: Kinds of numbers that no run gives; any other key of the list names the test that holds the number.
 KINDS = {"given", "published", "derived", "prototype"}
-"""Kinds of numbers that no run gives; any other key of the list names the test that holds the number."""
 
 
 @pytest.fixture(scope="module")

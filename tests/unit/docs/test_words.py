@@ -21,13 +21,12 @@ sys.path.pop(0)
 WORDS: dict[str, str] = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 MESSAGES = ROOT / "tests" / "golden" / "messages.txt"
 SOURCES = (".py", ".pyi", ".js", ".css", ".html")
+#: What is left of the list in sources: names that kernels have, and a part of names of key results.
 LEFT = {
     "records.py": ["books -> energy balance"] * 3,
     "problem.py": ["ledger -> energy balance", "books -> energy balance"],
 }
-"""What is left of the list in sources: names that kernels have, and a part of names of key results."""
-LONGEST = 25
-"""Words of the longest sentence there."""
+LONGEST = 25  #: Words of the longest sentence there.
 MEAN = 16.0
 
 

@@ -35,8 +35,8 @@ RUNS = {
 }
 
 
+#: Those of every run; the other one is of campaigns.
 FIGURES = {name: family for name, family in ALL.items() if name != "wear_history"}
-"""Those of every run; the other one is of campaigns."""
 
 
 @pytest.fixture(scope="module")

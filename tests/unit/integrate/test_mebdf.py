@@ -21,8 +21,7 @@ SHORT = {
     "vsv": {"run.duration": "50 ms", "run.output_interval": "1 ms"},
     "journal-oil": {"run.duration": "0.5 ms"},
 }
-SLOW = {"film.grid.theta": 360, "film.grid.z": 64}
-"""A film whose steps take many milliseconds."""
+SLOW = {"film.grid.theta": 360, "film.grid.z": 64}  #: A film whose steps take many milliseconds.
 
 
 def bits(result: xr.Dataset) -> dict[str, bytes]:

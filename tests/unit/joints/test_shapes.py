@@ -9,8 +9,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes import SHAPES, Annulus, Ball, Cylinder, Guide, Mesh, Slot, Sphere, Wall
 from tribodyn.joints.shapes.mesh import PATCH, nearby, split
 
+#: Two triangles of a square centimetre at z = 0 that face −z.
 CUBE_FACE = np.array([[[0.0, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [1, 0, 0]]]) * 1e-2
-"""Two triangles of a square centimetre at z = 0 that face −z."""
 TRIANGLE = (
     Wall("bottom", (-6e-3, -2e-3), (6e-3, -2e-3)),
     Wall("right", (6e-3, -2e-3), (0.0, 6e-3)),

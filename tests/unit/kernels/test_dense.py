@@ -8,10 +8,8 @@ import pytest
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 
-SIZES = [(3, 3, 3), (5, 8, 4), (8, 5, 4), (30, 36, 25), (4, 4, 0)]
-"""Rows, columns and rank."""
-ROUNDING = 1e-13
-"""A hundred roundings and more: sums of 36 products, some ten sweeps of rotations."""
+SIZES = [(3, 3, 3), (5, 8, 4), (8, 5, 4), (30, 36, 25), (4, 4, 0)]  #: Rows, columns and rank.
+ROUNDING = 1e-13  #: A hundred roundings and more: sums of 36 products, some ten sweeps of rotations.
 
 
 def matrix(m: int, n: int, rank: int) -> FloatArray:

@@ -27,12 +27,12 @@ from tribodyn.kernels import jit
 
 SOURCES = (solver.SOURCES, jit.SOURCES)
 LISTED = [kernel for sources in SOURCES for kernel in entries(sources)]
+#: Called by force laws, which are compiled.
 OF_LAWS = {
     "mebdf.kernels.elementary.exponential.exp",
     "mebdf.kernels.elementary.logarithm.power",
     "tribodyn.kernels.mechanism.law.followed_load",
 }
-"""Called by force laws, which are compiled."""
 
 
 def modules() -> Iterator[Path]:

@@ -13,10 +13,9 @@ from tribodyn.mechanism import elements
 
 SOLVER, PACKAGE = Path(mebdf.__file__).parent, Path(tribodyn.__file__).parent
 KERNELS = [*SOLVER.glob("kernels/**/*.py"), *PACKAGE.glob("kernels/**/*.py")]
-LAWS = list(Path(elements.__file__).parent.glob("*.py"))
-"""Force laws are compiled, too."""
+LAWS = list(Path(elements.__file__).parent.glob("*.py"))  #: Force laws are compiled, too.
+#: Functions of ``math`` and NumPy that the C library or NumPy chooses by the processor.
 INEXACT = re.compile(r"(arc|a)?(sin|cos|tan)h?2?|exp[m1|2]*|log\w*|pow|power|float_power|hypot|cbrt|erfc?")
-"""Functions of ``math`` and NumPy that the C library or NumPy chooses by the processor."""
 
 
 def inexact(source: str) -> Iterator[str]:

@@ -10,8 +10,7 @@ from scipy.sparse import coo_array, csc_array, csr_matrix, diags_array
 from mebdf import MEBDF
 from mebdf.algebra import Full, Sparse, by_bands
 
-N = 80
-"""More equations than the compiled core solves for."""
+N = 80  #: More equations than the compiled core solves for.
 RATE = 400.0
 LAPLACIAN = csr_matrix(
     RATE * diags_array([np.ones(N - 1), np.full(N, -2.0), np.ones(N - 1)], offsets=[-1, 0, 1])

@@ -21,8 +21,7 @@ from mebdf.differences import (
 
 N = 90
 SMALL = 1e-9
-CALLS = 8
-"""SciPy's own moves reach their shortest, or grow to a size that shows, in fewer."""
+CALLS = 8  #: SciPy's own moves reach their shortest, or grow to a size that shows, in fewer.
 KINDS = [DenseDifferences, lambda typical: GroupedDifferences(csc_array(np.ones(2 * typical.shape)), typical)]
 
 

@@ -32,8 +32,7 @@ def discharging_backward(t, y):
     return [y[1], (1.0 if t > 1.0 else 3.0) + y[0] - y[1]]
 
 
-BEFORE = np.exp(-1.0)
-"""Current before the step of the source; behind it there are 2 more."""
+BEFORE = np.exp(-1.0)  #: Current before the step of the source; behind it there are 2 more.
 CIRCUIT = {"mass": [1.0, 0.0], "breakpoints": [1.0], "rtol": 1e-8, "atol": 1e-10}
 
 

@@ -276,24 +276,12 @@ def with_springs(model: Model, stiffness: float, turning: float, share: float) -
 
 @dataclass(frozen=True)
 class Run:
-    """Observed rows of a run.
+    """Observed rows of a run."""
 
-    Attributes
-    ----------
-    model
-        What ran.
-    t
-        Output times [s].
-    rows
-        Observed rows.
-    statistics
-        What it cost.
-    """
-
-    model: Model
-    t: FloatArray
-    rows: FloatArray
-    statistics: Statistics
+    model: Model  #: What ran.
+    t: FloatArray  #: Output times [s].
+    rows: FloatArray  #: Observed rows.
+    statistics: Statistics  #: What it cost.
 
     def whole(self, name: str) -> FloatArray:
         """Return a quantity of the whole, shape (n_t,)."""

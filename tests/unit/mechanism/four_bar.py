@@ -4,8 +4,7 @@ import math
 
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
-CRANK, COUPLER, ROCKER, FRAME = 30.0, 100.0, 80.0, 90.0
-"""[mm]; the crank turns fully."""
+CRANK, COUPLER, ROCKER, FRAME = 30.0, 100.0, 80.0, 90.0  #: [mm]; the crank turns fully.
 JOINTS = ("main", "pin", "top", "pivot")
 
 

@@ -74,8 +74,8 @@ cycles = 2
 """
 
 
+#: The same with all joints ideal.
 IDEAL = re.sub(r"\[joints.wrist.clearance\].*?(?=\[joints)", "", FILE, flags=re.DOTALL)
-"""The same with all joints ideal."""
 
 
 def parsed(text: str = FILE) -> MechanismCase:

@@ -295,6 +295,7 @@ _POINTS = [
 ]
 _CURVE = 'torque = { speeds = "-100, 0, 100, 200 rad/s", values = "3, 2, 1.2, 0 N m" }'
 _OF_ANGLE = ('input = { type = "revolute"', 'input = { type = "prismatic"', "joint", "a joint with an angle")
+#: Of each kind: what is replaced in its example, by what, and which key is refused with which reason.
 WRONG: dict[str, list[tuple[str, str, str, str]]] = {
     "distance": _POINTS,
     "nonlinear_spring": [
@@ -329,7 +330,6 @@ WRONG: dict[str, list[tuple[str, str, str, str]]] = {
         ('sampling_time = "5 ms"', 'sampling_time = "0 s"', "sampling_time", "> 0"),
     ],
 }
-"""Of each kind: what is replaced in its example, by what, and which key is refused with which reason."""
 
 
 @pytest.mark.parametrize("kind", COUPLING, ids=lambda kind: kind.METHOD)

@@ -11,8 +11,7 @@ from tribodyn.kernels.mechanism.data import N_STATES, VELOCITY
 from tribodyn.kernels.mechanism.solution import correct_velocities, take_accelerations
 from tribodyn.mechanisms.catalogue import MECHANISMS
 
-SAME = 1e-9
-"""Part of the largest: one rounding of the state moves reactions by as much."""
+SAME = 1e-9  #: Part of the largest: one rounding of the state moves reactions by as much.
 
 
 @pytest.fixture(scope="module")

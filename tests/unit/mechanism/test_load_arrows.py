@@ -10,8 +10,7 @@ from tribodyn.mechanism.sections.load_arrows import LoadArrows, load_arrows
 from tribodyn.mechanism.sections.mechanism import at_frames, data
 from tribodyn.views.playback import playback_times
 
-TURN = 0.012
-"""Time of one turn of the crank [s]."""
+TURN = 0.012  #: Time of one turn of the crank [s].
 
 
 def arrows(**keys: object) -> tuple[LoadArrows, np.ndarray]:

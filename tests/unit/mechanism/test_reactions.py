@@ -11,8 +11,7 @@ from tribodyn.mechanisms import results
 
 WEIGHT = 9.81
 RUN = {"duration": "2 ms", "output_interval": "1 ms"}
-ACROSS = WEIGHT * math.sqrt(0.5)
-"""Part of the weight of 1 kg across a slope of 45°, and along it [N]."""
+ACROSS = WEIGHT * math.sqrt(0.5)  #: Part of the weight of 1 kg across a slope of 45°, and along it [N].
 
 
 def slope(kind: str, *, real: bool = False, **drive: object) -> Mechanism:

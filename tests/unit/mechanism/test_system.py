@@ -15,10 +15,10 @@ from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms import results
 from tribodyn.mechanisms.bushing import bushing_of
 
+#: Slider-crank of ideal joints at 5000 rpm under gravity.
 PLAIN = parsed(
     IDEAL.split("[pairs")[0] + '[drives.motor]\njoint = "main"\nspeed = "5000 rpm"\n[run]\ncycles = 1\n'
 )
-"""Slider-crank of ideal joints at 5000 rpm under gravity."""
 
 
 def bob(**clearance: object) -> Mechanism:

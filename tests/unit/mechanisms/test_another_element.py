@@ -13,8 +13,8 @@ import tribodyn
 
 SOURCE = Path(tribodyn.__file__).parent
 PAGE = Path(__file__).parents[3] / "CONTRIBUTING.md"
+#: Tests over the lists of types of joints and of shapes of their clearances.
 OVER_JOINTS = "tests/unit/mechanism/test_joints.py"
-"""Tests over the lists of types of joints and of shapes of their clearances."""
 RUN = """
 import numpy as np, tribodyn as td
 from tribodyn.cases.load import parse

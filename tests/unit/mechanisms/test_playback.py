@@ -6,8 +6,7 @@ import pytest
 import tribodyn as td
 from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, frame_times, merged, shown
 
-TURNS = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
-"""Reversals of a drive with a period of 2 s, in a run of 6 s."""
+TURNS = np.array([1.0, 2.0, 3.0, 4.0, 5.0])  #: Reversals of a drive with a period of 2 s, in a run of 6 s.
 
 
 def test_a_film_is_one_cycle_with_slow_motion_after_reversals() -> None:

@@ -30,8 +30,9 @@ from tribodyn.papers.cheng_2022.reduced import checks
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 
 T_END = 2.0
-PEAK = 0.7503
-"""When the pressure was largest [s]."""
+PEAK = 0.7503  #: When the pressure was largest [s].
+#: Of a run with nothing to say of, by a law that knows no real area; ``depth`` in σ, ``rejected`` and
+#: ``restarts`` beside a thousand steps.
 SOUND = {
     "energy": 0.0,
     "clearance_energy": 0.0,
@@ -44,8 +45,6 @@ SOUND = {
     "rejected": 30.0,
     "restarts": 3.0,
 }
-"""Of a run with nothing to say of, by a law that knows no real area; ``depth`` in σ, ``rejected`` and
-``restarts`` beside a thousand steps."""
 
 CASES = [
     ("energy", ENERGY_LIMIT, 1.0, "Energy is missed"),

@@ -4,8 +4,8 @@ import re
 from collections import Counter
 from importlib.resources import files
 
+#: A report has scripts of the first alone; the workbench has those of both in one page.
 FOLDERS = ("tribodyn.report.assets", "tribodyn.workbench.assets")
-"""A report has scripts of the first alone; the workbench has those of both in one page."""
 _DECLARED = re.compile(r"^(?:async\s+)?(?:function\*?|const|let|var|class)\s+(\w+)", re.M)
 
 

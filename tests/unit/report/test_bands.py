@@ -11,8 +11,7 @@ from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.archive import merge
 
 VARIED = {"joint.friction_coefficient": [0.05, 0.1], "contact.minimum_entry_velocity": "0.1 mm/s, 1 mm/s"}
-FORCES = (101.0, 104.0, 110.0, 117.0)
-"""Of friction 0.05 with both velocities, then of 0.1."""
+FORCES = (101.0, 104.0, 110.0, 117.0)  #: Of friction 0.05 with both velocities, then of 0.1.
 
 
 @pytest.fixture

@@ -92,6 +92,7 @@ def test_bad_arguments_write_nothing(arguments, make_result, tmp_path, monkeypat
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
+#: Numbers of a mechanism, and how those of its joints begin.
 PARTS = {
     "joint_force_max_N": "force_max_N_",
     "joint_force_sustained_N": "force_sustained_N_",
@@ -100,7 +101,6 @@ PARTS = {
     "wear_depth_max_nm": "wear_depth_nm_",
     "friction_heat_J": "friction_heat_J_",
 }
-"""Numbers of a mechanism, and how those of its joints begin."""
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ from tribodyn.results.dataset import plain_attribute
 from tribodyn.results.variables import OUTPUTS, OUTPUTS_OF_CYCLE
 
 KNOWN = {**VARIABLES, **MECHANISMS["vsv"].variables}
+#: What only results of wear campaigns hold.
 OF_A_CAMPAIGN = {name for name, variable in KNOWN.items() if {"jump", "stage_cycles"} & set(variable.dims)}
-"""What only results of wear campaigns hold."""
 OF_OUTPUTS = OUTPUTS.keys() | OUTPUTS_OF_CYCLE.keys()
 
 

@@ -13,8 +13,7 @@ from tribodyn.simulation.campaign import MOST_STAGES, CampaignPlan, Cycle, run_c
 from tribodyn.wear import Archard, JumpControl
 
 ROUGHNESS = 1.6e-6
-LENGTH = 0.5 * ROUGHNESS
-"""Depth over which the pressure of the made-up joint falls by e [m]."""
+LENGTH = 0.5 * ROUGHNESS  #: Depth over which the pressure of the made-up joint falls by e [m].
 SHAPE = (4, 6)
 LOAD = 1e6 * np.linspace(0.5, 1.0, 24).reshape(SHAPE)
 RATE = 1e-15

@@ -8,8 +8,7 @@ import tribodyn as td
 from tribodyn.contact import LAWS
 from tribodyn.joints import CONTACTS, SURFACE
 
-WEIGHT = 18.0
-"""Force [N] that the loads of the vane mechanism lay on the trunnion at the start, about."""
+WEIGHT = 18.0  #: Force [N] that the loads of the vane mechanism lay on the trunnion at the start, about.
 
 
 def run(name: str, **changes: object) -> xr.Dataset:

@@ -19,12 +19,13 @@ from tribodyn.mechanisms.catalogue import MECHANISMS, built_in
 from tribodyn.mechanisms.workload import Workload
 from tribodyn.simulation import estimate, first_steps
 
+#: Peak memory of a process [B], that of its own program: the one of ``getrusage`` begins with the memory of
+#: the process that started it.
 PEAK = """
 lines = pathlib.Path("/proc/self/status").read_text().splitlines()
 peak = 1024 * next(int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
 """
-"""Peak memory of a process [B], that of its own program: the one of ``getrusage`` begins with the memory of
-the process that started it."""
+#: A run in a process of its own.
 MEASURE = f"""
 import json, pathlib, sys, tempfile, time
 import tribodyn as td
@@ -39,7 +40,6 @@ with tempfile.TemporaryDirectory() as folder:
 solver = json.loads(dataset.attrs["solver"])
 {PEAK}print(json.dumps(dict(memory=peak, seconds=time.process_time() - begin, steps=solver["steps"])))
 """
-"""A run in a process of its own."""
 PEAK_OF_CHECK = f"""
 import pathlib, sys
 from tribodyn.cli.main import main
@@ -49,6 +49,7 @@ main(["check", *sys.argv[1:]])
 FINEST = {"solver.grid.theta": 4096, "solver.grid.z": 256}
 Changes = Mapping[str, object]
 
+#: None of them is among the runs that the coefficients were fitted to.
 VALIDATED: list[tuple[str, Changes]] = [
     ("vsv", {"run.cycles": 7}),
     ("vsv", {"solver.grid.theta": 700, "solver.grid.z": 90}),
@@ -73,7 +74,6 @@ VALIDATED: list[tuple[str, Changes]] = [
     ("vsv-free", {"joints.trunnion.clearance.radial": "40 um"}),
     ("vsv-joints", {"solver.grid.theta": 144, "solver.grid.z": 24}),
 ]
-"""None of them is among the runs that the coefficients were fitted to."""
 
 
 def work_of(case: Case) -> Workload:

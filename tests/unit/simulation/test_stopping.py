@@ -10,12 +10,12 @@ from tribodyn.cases import Case
 from tribodyn.core.errors import Stopped
 from tribodyn.simulation import first_steps
 
+#: Cases whose start and whose checks take seconds.
 FINE = {
     "vsv": {"run.duration": "20 ms", "solver.grid.theta": 1024, "solver.grid.z": 64},
     "journal-dry": {"run.duration": "1 ms", "solver.grid.theta": 1024, "solver.grid.z": 64},
     "slider-crank": {"run.cycles": 0.01, "solver.grid.theta": 1024, "solver.grid.z": 64},
 }
-"""Cases whose start and whose checks take seconds."""
 
 
 class Caller:

@@ -18,18 +18,16 @@ from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve
 pytestmark = pytest.mark.long
 
 FITS = 100
-NOISE = 0.01
-"""Standard deviation over the range of a curve."""
-PROCESSOR_TIME = 120.0
-"""60 s on two cores [s]."""
+NOISE = 0.01  #: Standard deviation over the range of a curve.
+PROCESSOR_TIME = 120.0  #: 60 s on two cores [s].
 
 JOURNAL = {"journal.mass": (0.31, "kg", "0.1..0.6kg"), "joint.clearance": (33e-6, "m", "25..45um")}
+#: True value, its unit, and range of each key.
 CRANK = {
     "joints.wrist.clearance.radial": (33e-6, "m", "10..60um"),
     "bodies.slider.mass": (0.16, "kg", "0.1..0.3kg"),
     "bodies.rod.mass": (0.24, "kg", "0.1..0.4kg"),
 }
-"""True value, its unit, and range of each key."""
 
 
 def _measured(run: xr.Dataset, names: Sequence[str], times: FloatArray, seed: int) -> Measured:

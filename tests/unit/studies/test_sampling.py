@@ -4,8 +4,8 @@ import pytest
 from tribodyn.studies import DISTRIBUTIONS, SAMPLERS
 from tribodyn.studies.sampling import DistributionProblem
 
+#: Probabilities whose quantiles have the moments of the distribution, but for what lies in the last tails.
 MANY = (np.arange(200_000) + 0.5) / 200_000
-"""Probabilities whose quantiles have the moments of the distribution, but for what lies in the last tails."""
 
 ARGUMENTS = {
     "normal": ((20.0, 2.0), 20.0, 2.0),

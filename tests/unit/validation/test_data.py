@@ -13,8 +13,7 @@ from tribodyn.validation import catalogue
 from tribodyn.validation.catalogue import NAMES, ValidationSet, index, load
 
 FOLDER = Path(str(files("tribodyn.validation")))
-MANIFEST = Path(__file__).with_name("data.sha256")
-"""Hashes of the files of the collection, made there."""
+MANIFEST = Path(__file__).with_name("data.sha256")  #: Hashes of the files of the collection, made there.
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.IGNORECASE)
 
 

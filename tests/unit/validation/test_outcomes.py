@@ -83,8 +83,8 @@ def test_enough_numbers_are_judged() -> None:
     assert sum(row.verdict is not Verdict.REPORTED for row in judged) >= LEAST_JUDGED
 
 
+#: A formula check, values of the library, and pull forces whose loads are not known.
 WITHOUT_NULL = ("servo_friction_models", "dry_liners", "vsv_practice")
-"""A formula check, values of the library, and pull forces whose loads are not known."""
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in WITHOUT_NULL])

@@ -9,13 +9,12 @@ import pytest
 from tribodyn.validation.catalogue import load
 from tribodyn.validation.predictions import FILE, computed, fingerprint, register
 
-ENTERED = datetime.date(2026, 11, 23)
-"""Day of the first entries; later models add later ones."""
+ENTERED = datetime.date(2026, 11, 23)  #: Day of the first entries; later models add later ones.
 NEWEST = datetime.date(2026, 11, 26)
+#: Kinds that need runs.
 RUN = ("plateau", "with a joint", "July, 1 Hz", "earthquakes", "28 mm head", "45 % PTFE", "0 % PTFE, 98 N")
-"""Kinds that need runs."""
+#: Hash of the register with the first entries only.
 FIRST = "d924c267203c27f2094fd0376500c2b4e6978beffb7e9dccd655eeaa55d63ad6"
-"""Hash of the register with the first entries only."""
 
 
 def test_every_entry_has_an_interval_and_its_origin() -> None:

@@ -29,13 +29,12 @@ from tribodyn.workbench.work import Limits
 from tribodyn.workbench.worker_pool import GivenUp, Job, WorkerPool
 
 THE_PAGE = b'<!doctype html><meta name="secret" content="">the page'
+#: The command as a process that ends with the one that began it, however that ends; on Linux.
 TRIBODYN = [
     *(["setpriv", "--pdeathsig", "TERM"] if shutil.which("setpriv") else []),
     *(sys.executable, "-m", "tribodyn"),
 ]
-"""The command as a process that ends with the one that began it, however that ends; on Linux."""
-SOON = 300.0
-"""Time after which a test that waits has failed, however busy the machine is [s]."""
+SOON = 300.0  #: Time after which a test that waits has failed, however busy the machine is [s].
 
 
 class Pretending(WorkerPool):

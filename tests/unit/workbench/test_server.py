@@ -18,8 +18,7 @@ from tribodyn.workbench.messages import LARGEST
 from tribodyn.workbench.server import listening, own_name, pointer
 from tribodyn.workbench.server_state import Rules
 
-SHOWN = ("/", "/assets/a.js")
-"""What a cookie alone opens: nothing in it is of a person."""
+SHOWN = ("/", "/assets/a.js")  #: What a cookie alone opens: nothing in it is of a person.
 ROUTES = (*SHOWN, "/download/case.toml", "/socket", "/nothing")
 METHODS = ("GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "TRACE", "CONNECT", "PATCH", "BREW")
 EVIL = "http://evil.example"

@@ -14,13 +14,13 @@ from mebdf.arrays import FloatArray
 from mebdf.kernels.phases import NEED_FACTORS, NEED_JACOBIAN, NEED_MAGNITUDE, NEED_SOLUTION
 from mebdf.kernels.state import DELTA, MAGNITUDE, RESIDUAL, MebdfState
 
+#: Orders of columns for SuperLU: good for symmetric patterns, and for any.
 ORDERS: Final = ("MMD_AT_PLUS_A", "COLAMD")
-"""Orders of columns for SuperLU: good for symmetric patterns, and for any."""
+#: Share of the largest entry of its column at which SuperLU takes the entry on the diagonal as the pivot.
 PIVOT: Final = 0.1
-"""Share of the largest entry of its column at which SuperLU takes the entry on the diagonal as the pivot."""
 
+#: Diagonals of a banded decomposition over entries a column up to which it is the faster one.
 NARROW: Final = 4.0
-"""Diagonals of a banded decomposition over entries a column up to which it is the faster one."""
 
 Evaluation = Callable[[float, FloatArray], Any]
 Solution = Callable[[FloatArray], FloatArray]

@@ -11,8 +11,7 @@ from mebdf.arrays import FloatArray
 SMALLEST_TOLERANCE = 1.0e-299
 SMALLEST_RTOL = 100.0 * float(np.finfo(np.float64).eps)
 SMALLEST_ATOL = 1.0e-290
-LARGEST_ATOL = 1.0e100
-"""Divisors in the place of absolute tolerances of zero and of infinity."""
+LARGEST_ATOL = 1.0e100  #: Divisors in the place of absolute tolerances of zero and of infinity.
 
 
 def tolerances(rtol: ArrayLike, atol: ArrayLike, n: int) -> tuple[FloatArray, FloatArray]:

@@ -19,23 +19,21 @@ from mebdf.algebra import is_sparse
 from mebdf.arrays import FloatArray
 from mebdf.mass import LARGEST, MassMatrix, Split, split
 
+#: Time over which derivatives are differenced, in times that change the solution by itself.
 SHORT: Final = (0.0, 1.0e-5, 1.0e-3)
-"""Time over which derivatives are differenced, in times that change the solution by itself."""
-CERTAIN: Final = 4.0
-"""Least ratio of a difference that breaks an equation to its own error."""
+CERTAIN: Final = 4.0  #: Least ratio of a difference that breaks an equation to its own error.
+#: Least slope of a derivative that depends on algebraic variables, relative to the steepest.
 DEPENDS: Final = 1.0e-7
-"""Least slope of a derivative that depends on algebraic variables, relative to the steepest."""
+#: The same of an equation itself, relative to its terms: rounding of differences may look like a slope.
 ROUNDING: Final = 2.0e-7
-"""The same of an equation itself, relative to its terms: rounding of differences may look like a slope."""
+#: Share of the largest singular value below which one of Newton's matrix is rounding of differences.
 SINGULAR: Final = 1.0e-7
-"""Share of the largest singular value below which one of Newton's matrix is rounding of differences."""
-SOLVED: Final = 0.5
-"""Share of the residual that a change may leave to first order."""
+SOLVED: Final = 0.5  #: Share of the residual that a change may leave to first order.
+#: Change, relative to the largest algebraic variable, that is left alone at an index above 1: derivatives are
+#: differences.
 UNCHANGED: Final = 1.0e-3
-"""Change, relative to the largest algebraic variable, that is left alone at an index above 1: derivatives
-are differences."""
+#: The same at index 1, relative to the terms of the equation that determines a variable best.
 ROUNDED: Final = 1.0e-10
-"""The same at index 1, relative to the terms of the equation that determines a variable best."""
 ITERATIONS: Final = 40
 MOST_HALVINGS: Final = 30
 

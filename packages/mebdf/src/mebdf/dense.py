@@ -7,10 +7,9 @@ from scipy.integrate import DenseOutput
 
 from mebdf.arrays import FloatArray
 
+#: Length of a jump: SciPy's search for events ends at intervals a quarter as long.
 JUMP: Final = 16.0 * float(np.finfo(np.float64).eps)
-"""Length of a jump: SciPy's search for events ends at intervals a quarter as long."""
-MOST: Final = 1e-4
-"""Length of a jump, at most, as a share of the time to the next breakpoint."""
+MOST: Final = 1e-4  #: Length of a jump, at most, as a share of the time to the next breakpoint.
 
 
 class MebdfDenseOutput(DenseOutput):

@@ -13,16 +13,13 @@ from mebdf.arrays import FloatArray
 from mebdf.kernels.ahead import LARGE, LEAST, LOST, SMALL, STRIDE
 
 _EPS: Final = float(np.finfo(np.float64).eps)
+#: Values of states evaluated at once: a dense row makes each column a group of its own.
 AT_ONCE: Final = 2**22
-"""Values of states evaluated at once: a dense row makes each column a group of its own."""
+#: Shortest move of a variable near zero, in roundings of the size at which its tolerances are equal.
 ROUNDINGS: Final = 100.0
-"""Shortest move of a variable near zero, in roundings of the size at which its tolerances are equal."""
-SHORT: Final = 1e-7
-"""Move relative to the size of a variable where nothing is known of rounding."""
-FAR: Final = 1e-6
-"""The same where that does not show, relative to the largest variable."""
-CLEAR: Final = 1e3
-"""Least ratio of a visible change to its rounding."""
+SHORT: Final = 1e-7  #: Move relative to the size of a variable where nothing is known of rounding.
+FAR: Final = 1e-6  #: The same where that does not show, relative to the largest variable.
+CLEAR: Final = 1e3  #: Least ratio of a visible change to its rounding.
 
 Rates = Callable[[FloatArray], FloatArray]
 

@@ -23,18 +23,15 @@ from mebdf.kernels.phases import FIRST_F, SECOND_F
 from mebdf.kernels.state import Mass, MebdfState
 from mebdf.mass import MassMatrix
 
-UNCHANGED: Final = 1e-6
-"""Relative change of the slope that ends the search for it."""
+UNCHANGED: Final = 1e-6  #: Relative change of the slope that ends the search for it.
+#: Singular value of ∂F/∂y', relative to the largest one, that is zero: differences are no better.
 ABSENT: Final = 1e-6
-"""Singular value of ∂F/∂y', relative to the largest one, that is zero: differences are no better."""
 ITERATIONS: Final = 20
+#: Change of a slope in differences, relative to it or to what changes the solution by itself.
 VARIED: Final = 1e-6
-"""Change of a slope in differences, relative to it or to what changes the solution by itself."""
-CLEAR: Final = 1e4
-"""Least ratio of a difference of F to its rounding."""
+CLEAR: Final = 1e4  #: Least ratio of a difference of F to its rounding.
 LARGER: Final = 1e3
-MOST_TRIES: Final = 8
-"""Factor by which a change is enlarged that does not show, and how often."""
+MOST_TRIES: Final = 8  #: Factor by which a change is enlarged that does not show, and how often.
 
 Pair = tuple[FloatArray, FloatArray]
 

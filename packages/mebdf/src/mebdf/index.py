@@ -21,16 +21,14 @@ from mebdf.algebra import is_sparse
 from mebdf.arrays import FloatArray
 from mebdf.mass import LARGEST
 
+#: Frequencies of the perturbations, relative to the fastest rate.
 FREQUENCIES: Final = 10.0 ** np.arange(4.0, 9.0)
-"""Frequencies of the perturbations, relative to the fastest rate."""
-WHOLE: Final = 0.1
-"""Difference from a whole number up to which an exponent is that number."""
+WHOLE: Final = 0.1  #: Difference from a whole number up to which an exponent is that number.
+#: Change of the state that shows which entries of J are zero by chance, relative to the values.
 MOVE: Final = 1.0e-4
-"""Change of the state that shows which entries of J are zero by chance, relative to the values."""
+#: Entries, relative to the largest of their rows, that may be rounding: none, or small ones.
 ABSENT: Final = (0.0, 1.0e-9)
-"""Entries, relative to the largest of their rows, that may be rounding: none, or small ones."""
-SIDES: Final = 3
-"""Number of random perturbations of the equations."""
+SIDES: Final = 3  #: Number of random perturbations of the equations.
 
 Indices = NDArray[np.int64]
 

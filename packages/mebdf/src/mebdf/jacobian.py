@@ -25,12 +25,10 @@ from mebdf.mass import MassMatrix
 
 Dense = Callable[[float, FloatArray], FloatArray]
 
-CHANGE: Final = 1e-6
-"""Relative change of the state along which it is compared."""
+CHANGE: Final = 1e-6  #: Relative change of the state along which it is compared.
+#: Difference of the derivatives, relative to the larger one, of a Jacobian that is wrong, not rough.
 WRONG: Final = 0.9
-"""Difference of the derivatives, relative to the larger one, of a Jacobian that is wrong, not rough."""
-NOISE: Final = 1e-12
-"""Difference, relative to the right-hand side, that its rounding may be."""
+NOISE: Final = 1e-12  #: Difference, relative to the right-hand side, that its rounding may be.
 
 
 class CheckedJacobian:
@@ -105,46 +103,27 @@ def _signs(n: int) -> FloatArray:
     return np.random.default_rng(0).choice([-1.0, 1.0], n)
 
 
+#: Number of equations up to which the compiled core solves: its decomposition is a plain loop.
 LARGEST_IN_CORE: Final = 64
-"""Number of equations up to which the compiled core solves: its decomposition is a plain loop."""
 
 Jacobian = Callable[[float, FloatArray], Any]
 Bands = tuple[int, int]
 
 
 class Linear(NamedTuple):
-    """The Jacobian, and who solves with it.
+    """The Jacobian, and who solves with it."""
 
-    Attributes
-    ----------
-    jacobian
-        ``jacobian(t, y)``, shape (n, n).
-    algebra
-        Who solves instead of the compiled core, which does where this is ``None``.
-    evaluations
-        How many evaluations of the right-hand side the Jacobian costs, 0 if it is given.
-    """
-
-    jacobian: Jacobian
-    algebra: Algebra | None
-    evaluations: int
+    jacobian: Jacobian  #: ``jacobian(t, y)``, shape (n, n).
+    algebra: Algebra | None  #: Who solves instead of the compiled core, which does where this is ``None``.
+    evaluations: int  #: How many evaluations of the right-hand side the Jacobian costs, 0 if it is given.
 
 
 class Matrices(NamedTuple):
-    """Companions of the Jacobian: arguments of the classes that solve.
+    """Companions of the Jacobian: arguments of the classes that solve."""
 
-    Attributes
-    ----------
-    mass
-        Mass matrix, sparse, shape (n, n).
-    algebraic
-        Which equations have no derivatives, shape (n,).
-    typical
-        Size of each component at which its relative tolerance is as large as the absolute one, shape (n,).
-    """
-
-    mass: Any
-    algebraic: NDArray[np.bool_]
+    mass: Any  #: Mass matrix, sparse, shape (n, n).
+    algebraic: NDArray[np.bool_]  #: Which equations have no derivatives, shape (n,).
+    #: Size of each component at which its relative tolerance is as large as the absolute one, shape (n,).
     typical: FloatArray
 
 

@@ -16,27 +16,16 @@ from mebdf.arrays import FloatArray
 from mebdf.kernels.state import Mass
 
 HIGHEST_INDEX: Final = 3
-LARGEST: Final = 500
-"""Number of equations up to which singular values are taken."""
+LARGEST: Final = 500  #: Number of equations up to which singular values are taken.
 
 
 @dataclass(frozen=True)
 class MassMatrix:
-    """A constant mass matrix and the index of each variable.
+    """A constant mass matrix and the index of each variable."""
 
-    Attributes
-    ----------
-    matrix
-        Compressed rows without zeros, shape (n, n).
-    index
-        Index of each variable, shape (n,).
-    tested
-        Whether a variable is in the error test, shape (n,).
-    """
-
-    matrix: Any
-    index: NDArray[np.int64]
-    tested: NDArray[np.bool_]
+    matrix: Any  #: Compressed rows without zeros, shape (n, n).
+    index: NDArray[np.int64]  #: Index of each variable, shape (n,).
+    tested: NDArray[np.bool_]  #: Whether a variable is in the error test, shape (n,).
 
     @cached_property
     def algebraic_equations(self) -> NDArray[np.bool_]:
@@ -58,24 +47,12 @@ class MassMatrix:
 
 @dataclass(frozen=True)
 class Split:
-    """Algebraic part of a system with a singular mass matrix.
+    """Algebraic part of a system with a singular mass matrix."""
 
-    Attributes
-    ----------
-    constraints
-        P: combinations of equations without derivatives, shape (m, n), sparse.
-    free
-        Z: directions in which M does not hold the state, shape (n, m), sparse.
-    slope
-        Returns M⁺ f, the y' of least size for M y' = f.
-    along
-        Returns rows times M⁺, shape (m, n) of (m, n).
-    """
-
-    constraints: Any
-    free: Any
-    slope: Callable[[FloatArray], FloatArray]
-    along: Callable[[FloatArray], FloatArray]
+    constraints: Any  #: P: combinations of equations without derivatives, shape (m, n), sparse.
+    free: Any  #: Z: directions in which M does not hold the state, shape (n, m), sparse.
+    slope: Callable[[FloatArray], FloatArray]  #: Returns M⁺ f, the y' of least size for M y' = f.
+    along: Callable[[FloatArray], FloatArray]  #: Returns rows times M⁺, shape (m, n) of (m, n).
 
 
 def split(mass: MassMatrix) -> Split:

@@ -18,14 +18,13 @@ from mebdf.kernels import ahead
 from mebdf.kernels.phases import FAILED, STEP_ACCEPTED
 from mebdf.kernels.state import N_DIFFERENCES, MebdfState
 
+#: Signature of compiled functions of (t, y, out, data); the last address may be one of anything.
 C_FUNCTION: Final = "void (double, double *, double *, double *)"
-"""Signature of compiled functions of (t, y, out, data); the last address may be one of anything."""
+#: Steps taken ahead at most; their number doubles from one: where an event ends, few are of no use.
 MOST_AHEAD: Final = 256
-"""Steps taken ahead at most; their number doubles from one: where an event ends, few are of no use."""
-MOST_NUMBERS: Final = 1 << 22
-"""Numbers kept of steps taken ahead, at most."""
+MOST_NUMBERS: Final = 1 << 22  #: Numbers kept of steps taken ahead, at most.
+#: End of a step and the state there; evaluations, Jacobians and decompositions so far.
 Step: TypeAlias = tuple[float, FloatArray, int, int, int]
-"""End of a step and the state there; evaluations, Jacobians and decompositions so far."""
 _name_of: Final[Any] = ctypes.pythonapi.PyCapsule_GetName
 _name_of.restype, _name_of.argtypes = ctypes.c_char_p, [ctypes.py_object]
 _address_in: Final[Any] = ctypes.pythonapi.PyCapsule_GetPointer

@@ -8,8 +8,7 @@ from mebdf.kernels import phases
 from mebdf.kernels import state as entry
 from mebdf.kernels.state import MebdfState
 
-LATEST = 1.0e300
-"""Time beyond which a step may lead out of the numbers."""
+LATEST = 1.0e300  #: Time beyond which a step may lead out of the numbers.
 
 
 def reason(

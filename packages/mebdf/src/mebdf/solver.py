@@ -40,10 +40,9 @@ from mebdf.native import Ahead, Native, Step, native
 from mebdf.reasons import reason
 
 ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
-OF_TOLERANCE: Final = 0.2
-"""Power of the tolerance to which steps grow with it."""
+OF_TOLERANCE: Final = 0.2  #: Power of the tolerance to which steps grow with it.
+#: Decompositions a step that make the Jacobian be checked; a right one takes a third or so.
 RENEWED: Final = 0.5
-"""Decompositions a step that make the Jacobian be checked; a right one takes a third or so."""
 
 
 class MEBDF(OdeSolver):

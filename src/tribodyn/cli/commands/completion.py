@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 HELP = 'print what lets a shell complete commands, keys and values: eval "$(tribodyn completion bash)"'
 EXAMPLE = "tribodyn completion bash"
 SHELLS: Final = ("bash", "zsh", "fish")
-ASKING: Final = "_ARGCOMPLETE"
-"""In the environment of a command that a shell asks for completions."""
+ASKING: Final = "_ARGCOMPLETE"  #: In the environment of a command that a shell asks for completions.
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -104,6 +103,7 @@ def _names(module: str, attribute: str) -> Callable[..., list[str]]:
     return names
 
 
+#: Completers of arguments, by their names in the parser; choices and files complete themselves.
 COMPLETERS: Final[dict[str, Callable[..., list[str]]]] = {
     "case": _cases,
     "changes": _paths,
@@ -114,4 +114,3 @@ COMPLETERS: Final[dict[str, Callable[..., list[str]]]] = {
     "template": _templates,
     "shell": _names("tribodyn.cli.commands.completion", "SHELLS"),
 }
-"""Completers of arguments, by their names in the parser; choices and files complete themselves."""

@@ -21,8 +21,7 @@ EXAMPLE = "tribodyn reproduce fig9 claims"
 CLAIMS: Final = "claims"
 ENSEMBLE: Final = "ensemble"
 ALL: Final = "all"
-_PROCESSES: Final = 2
-"""Members of the ensemble that are measured at once, at most."""
+_PROCESSES: Final = 2  #: Members of the ensemble that are measured at once, at most.
 
 
 def add_arguments(parser: ArgumentParser) -> None:

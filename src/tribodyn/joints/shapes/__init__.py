@@ -11,6 +11,7 @@ from tribodyn.joints.shapes.round import Ball, Sphere
 from tribodyn.joints.shapes.slot import Slot
 from tribodyn.joints.shapes.surface import Points, Shape, Surface
 
+#: Made with their sizes by name.
 SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "cylinder": Cylinder,
     "annulus": Annulus,
@@ -20,7 +21,6 @@ SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "guide": Guide,
     "slot": Slot,
 }
-"""Made with their sizes by name."""
 
 __all__ = [
     "SHAPES",

@@ -18,8 +18,7 @@ from tribodyn.kernels.joints.surface.bulk import RING
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
 ENDS = {"upper": 1.0, "lower": -1.0}
-FEWEST_ACROSS = 4
-"""Rows of a face, however narrow it is, unless the barrel has fewer."""
+FEWEST_ACROSS = 4  #: Rows of a face, however narrow it is, unless the barrel has fewer.
 
 
 def rows_of_face(n_z: int, width: float, length: float) -> int:
@@ -39,37 +38,18 @@ def rows_of_face(n_z: int, width: float, length: float) -> int:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """Sizes of a shaft in a bore [m].
+    """Sizes of a shaft in a bore [m]."""
 
-    Attributes
-    ----------
-    radius
-        Of the shaft.
-    clearance
-        Radial clearance c.
-    length
-        Of the bore.
-    pin_length
-        Of the shaft; None if it is longer than the bore.
-    axial
-        Gap at both end faces as drawn; none without faces.
-    axial_upper, axial_lower
-        The same at one end each, along the axis and against it.
-    flange
-        Outer radius of the end faces; the bore is their inner one.
-    form
-        What shaft and bore stand back from cylinders.
-    """
-
-    radius: float
-    clearance: float
-    length: float
-    pin_length: float | None = None
-    axial: float | None = None
+    radius: float  #: Of the shaft.
+    clearance: float  #: Radial clearance c.
+    length: float  #: Of the bore.
+    pin_length: float | None = None  #: Of the shaft; None if it is longer than the bore.
+    axial: float | None = None  #: Gap at both end faces as drawn; none without faces.
+    #: The same at one end each, along the axis and against it.
     axial_upper: float | None = None
     axial_lower: float | None = None
-    flange: float | None = None
-    form: Form = field(default_factory=Form)
+    flange: float | None = None  #: Outer radius of the end faces; the bore is their inner one.
+    form: Form = field(default_factory=Form)  #: What shaft and bore stand back from cylinders.
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""

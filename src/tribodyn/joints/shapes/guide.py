@@ -22,8 +22,7 @@ from tribodyn.joints.shapes.rings import across
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.tilt import WHOLE
 
-_FEWEST: Final = 4
-"""Nodes across a wall, however narrow it is."""
+_FEWEST: Final = 4  #: Nodes across a wall, however narrow it is.
 
 
 def rows_across(around: int) -> int:
@@ -33,17 +32,10 @@ def rows_across(around: int) -> int:
 
 @dataclass(frozen=True)
 class Wall:
-    """A face of the block in its cross-section, where a wall of the channel stands.
+    """A face of the block in its cross-section, where a wall of the channel stands."""
 
-    Attributes
-    ----------
-    name
-        Of its surface.
-    first, last
-        Its edges [m], anticlockwise around the block: outside lies on the right of the way.
-    """
-
-    name: str
+    name: str  #: Of its surface.
+    #: Its edges [m], anticlockwise around the block: outside lies on the right of the way.
     first: tuple[float, float]
     last: tuple[float, float]
 
@@ -66,26 +58,14 @@ class Wall:
 
 @dataclass(frozen=True)
 class Guide:
-    """Sizes of a block in a channel [m].
+    """Sizes of a block in a channel [m]."""
 
-    Attributes
-    ----------
-    walls
-        In their order around the block.
-    clearance
-        Gap at the walls that are furthest apart, where the block stands in the middle.
-    length
-        Along which both can touch: of the block, or of the channel that it passes through.
-    through
-        Whether it passes through a channel that is shorter, such as a rail through its carriage.
-    grown
-        What the gap at each wall has more, where temperatures change; nothing by default.
-    """
-
-    walls: tuple[Wall, ...]
-    clearance: float
-    length: float
+    walls: tuple[Wall, ...]  #: In their order around the block.
+    clearance: float  #: Gap at the walls that are furthest apart, where the block stands in the middle.
+    length: float  #: Along which both can touch: of the block, or of the channel that it passes through.
+    #: Whether it passes through a channel that is shorter, such as a rail through its carriage.
     through: bool = False
+    #: What the gap at each wall has more, where temperatures change; nothing by default.
     grown: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:

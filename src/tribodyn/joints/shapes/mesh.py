@@ -18,28 +18,18 @@ from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_p
 from tribodyn.kernels.joints.surface.data import Row
 from tribodyn.kernels.joints.surface.tilt import WHOLE
 
-PATCH = 32
-"""Nodes that are looked at together before each is."""
+PATCH = 32  #: Nodes that are looked at together before each is.
 MOST_NODES = 1_000_000
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """A socket of triangles.
+    """A socket of triangles."""
 
-    Attributes
-    ----------
-    facets
-        Corners in the socket's frame [m], shape (n, 3, 3), anticlockwise as seen from the shaft.
-    clearance
-        Gap as drawn, everywhere [m].
-    edge
-        Longest edge that a triangle may have [m]; longer ones are split.
-    """
-
+    #: Corners in the socket's frame [m], shape (n, 3, 3), anticlockwise as seen from the shaft.
     facets: FloatArray
-    clearance: float
-    edge: float
+    clearance: float  #: Gap as drawn, everywhere [m].
+    edge: float  #: Longest edge that a triangle may have [m]; longer ones are split.
 
     def __post_init__(self) -> None:
         """Refuse invalid meshes."""
@@ -136,8 +126,7 @@ def patches(position: FloatArray, normal: FloatArray, area: FloatArray) -> NDArr
 
 _HEADER: Final = 84
 _TRIANGLE: Final = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
-MOST_BYTES: Final = 300 * MOST_NODES
-"""Size of a triangle in text, times the largest number of them."""
+MOST_BYTES: Final = 300 * MOST_NODES  #: Size of a triangle in text, times the largest number of them.
 _LOOP: Final = rb"outer\s+loop((?:\s+vertex(?:\s+\S+){3}){3})\s+endloop"
 _FACET: Final = re.compile(rb"facet\s+normal(?:\s+\S+){3}\s+" + _LOOP + rb"\s+endfacet")
 

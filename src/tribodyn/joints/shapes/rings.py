@@ -13,8 +13,7 @@ from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_p
 from tribodyn.kernels.joints.surface.data import Row
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
-EDGES: Final = 2
-"""Rows on the edges of a surface, which weigh nothing."""
+EDGES: Final = 2  #: Rows on the edges of a surface, which weigh nothing.
 
 
 def across(first: float, last: float, n: int) -> tuple[FloatArray, FloatArray]:
@@ -31,23 +30,15 @@ def with_edges(
 
 @dataclass(frozen=True)
 class Rings:
-    """The profile of a surface of revolution, a ring of nodes at each of its points.
+    """The profile of a surface of revolution, a ring of nodes at each of its points."""
 
-    Attributes
-    ----------
-    radius, height
-        Of the rings on the shaft [m], shape (n,).
-    radial, axial
-        Components of the normals, shape (n,).
-    strip
-        Area of the surface over angle that a ring stands for [m²/rad], shape (n,).
-    """
-
+    #: Of the rings on the shaft [m], shape (n,).
     radius: FloatArray
     height: FloatArray
+    #: Components of the normals, shape (n,).
     radial: FloatArray
     axial: FloatArray
-    strip: FloatArray
+    strip: FloatArray  #: Area of the surface over angle that a ring stands for [m²/rad], shape (n,).
 
     def surface(
         self, name: str, along: tuple[str, FloatArray], gap: float | FloatArray, n_theta: int, tilt: float
@@ -92,25 +83,14 @@ class Rings:
 
 @dataclass(frozen=True)
 class Annulus:
-    """Sizes of a flat ring [m].
+    """Sizes of a flat ring [m]."""
 
-    Attributes
-    ----------
-    inner, outer
-        Its radii.
-    clearance
-        Gap as drawn; 0 for faces that lie on each other.
-    height
-        Of the face along the axis, from the joint's point.
-    direction
-        From the shaft into the socket: 1 along the axis, −1 against it, as a collar that rests on its
-        bushing.
-    """
-
+    #: Its radii.
     inner: float
     outer: float
-    clearance: float = 0.0
-    height: float = 0.0
+    clearance: float = 0.0  #: Gap as drawn; 0 for faces that lie on each other.
+    height: float = 0.0  #: Of the face along the axis, from the joint's point.
+    #: From the shaft into the socket: 1 along the axis, −1 against it, as a collar that rests on its bushing.
     direction: float = -1.0
 
     def __post_init__(self) -> None:

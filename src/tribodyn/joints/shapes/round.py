@@ -19,21 +19,11 @@ from tribodyn.kernels.joints.surface.tilt import NO_TILT
 
 @dataclass(frozen=True)
 class Sphere:
-    """Sizes of a ball in a race.
+    """Sizes of a ball in a race."""
 
-    Attributes
-    ----------
-    radius
-        Of the ball [m].
-    clearance
-        Radial clearance [m].
-    band
-        Latitude up to which the race reaches on both sides of the plane across the axis [rad].
-    """
-
-    radius: float
-    clearance: float
-    band: float
+    radius: float  #: Of the ball [m].
+    clearance: float  #: Radial clearance [m].
+    band: float  #: Latitude up to which the race reaches on both sides of the plane across the axis [rad].
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""
@@ -59,21 +49,12 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Ball:
-    """Sizes of a ball in a bore.
+    """Sizes of a ball in a bore."""
 
-    Attributes
-    ----------
-    radius
-        Of the ball [m].
-    clearance
-        Radial clearance [m].
-    band
-        Latitude up to which there are nodes on both sides of the equator [rad]; what can touch must lie
-        within. By default that at which the gap has opened by once the clearance.
-    """
-
-    radius: float
-    clearance: float
+    radius: float  #: Of the ball [m].
+    clearance: float  #: Radial clearance [m].
+    #: Latitude up to which there are nodes on both sides of the equator [rad]; what can touch must lie
+    #: within. By default that at which the gap has opened by once the clearance.
     band: float | None = None
 
     def __post_init__(self) -> None:

@@ -21,21 +21,11 @@ WALLS = {"upper": 1.0, "lower": -1.0}
 
 @dataclass(frozen=True)
 class Slot:
-    """Sizes of a pin in a slot [m].
+    """Sizes of a pin in a slot [m]."""
 
-    Attributes
-    ----------
-    radius
-        Of the pin.
-    clearance
-        Gap on either side, the pin in the middle.
-    length
-        Of the pin within the slot.
-    """
-
-    radius: float
-    clearance: float
-    length: float
+    radius: float  #: Of the pin.
+    clearance: float  #: Gap on either side, the pin in the middle.
+    length: float  #: Of the pin within the slot.
 
     def __post_init__(self) -> None:
         """Refuse sizes that make no joint."""

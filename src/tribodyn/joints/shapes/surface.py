@@ -13,48 +13,25 @@ from tribodyn.kernels.joints.surface.bulk import FACE
 
 @dataclass(frozen=True)
 class Surface:
-    """Nodes of one surface, in the socket's frame, the shaft where it is drawn.
+    """Nodes of one surface, in the socket's frame, the shaft where it is drawn."""
 
-    Attributes
-    ----------
-    name
-        Which surface of the joint.
-    position
-        x_k on the shaft [m], shape (n, 3).
-    normal
-        n_k from the shaft into the socket, shape (n, 3).
-    area
-        A_k [m²], shape (n,).
-    gap
-        h0_k without wear [m], shape (n,).
-    rows
-        Records ``Row`` whose nodes count from the first of this surface.
-    tilt
-        What turning does to the gaps, see ``kernels/joints/surface/tilt.py``.
-    axes
-        Names and values of the two coordinates of a map of the nodes, row by row; one for nodes in no order.
-    slides
-        Whether the nodes stay where they are on the socket while the shaft slides through it.
-    lean
-        Radius ρ of the second-order term of the tilt [m], see ``kernels/joints/surface/tilt.py``.
-    extent, size, room
-        How the compliance of elastic bodies follows its contact, see ``kernels/joints/surface/bulk.py``;
-        radius of the bore, or half the width of a face, and the clearance of a ball [m].
-    opens
-        How much of a change of the radial clearance and of the play along the axis its gaps gain [1].
-    """
-
-    name: str
-    position: FloatArray
-    normal: FloatArray
-    area: FloatArray
-    gap: FloatArray
-    rows: NDArray[np.void]
-    tilt: float
+    name: str  #: Which surface of the joint.
+    position: FloatArray  #: x_k on the shaft [m], shape (n, 3).
+    normal: FloatArray  #: n_k from the shaft into the socket, shape (n, 3).
+    area: FloatArray  #: A_k [m²], shape (n,).
+    gap: FloatArray  #: h0_k without wear [m], shape (n,).
+    rows: NDArray[np.void]  #: Records ``Row`` whose nodes count from the first of this surface.
+    tilt: float  #: What turning does to the gaps, see ``kernels/joints/surface/tilt.py``.
+    #: Names and values of the two coordinates of a map of the nodes, row by row; one for nodes in no order.
     axes: dict[str, FloatArray]
+    #: Whether the nodes stay where they are on the socket while the shaft slides through it.
     slides: bool = False
+    #: Radius ρ of the second-order term of the tilt [m], see ``kernels/joints/surface/tilt.py``.
     lean: float = 0.0
+    #: How much of a change of the radial clearance and of the play along the axis its gaps gain [1].
     opens: tuple[float, float] = (1.0, 0.0)
+    #: How the compliance of elastic bodies follows its contact, see ``kernels/joints/surface/bulk.py``;
+    #: radius of the bore, or half the width of a face, and the clearance of a ball [m].
     extent: float = FACE
     size: float = 0.0
     room: float = 0.0
@@ -67,20 +44,13 @@ class Surface:
 
 @dataclass(frozen=True)
 class Points:
-    """Points of contact of smooth surfaces of a shape: circles, or one sphere.
+    """Points of contact of smooth surfaces of a shape: circles, or one sphere."""
 
-    Attributes
-    ----------
-    radius, clearance, length
-        Radius of the shaft, radial clearance, and length that two circles share, 0 for a sphere [m].
-    heights
-        Of the centres along the axis [m].
-    """
-
+    #: Radius of the shaft, radial clearance, and length that two circles share, 0 for a sphere [m].
     radius: float
     clearance: float
     length: float
-    heights: tuple[float, ...]
+    heights: tuple[float, ...]  #: Of the centres along the axis [m].
 
     @property
     def bore_radius(self) -> float:

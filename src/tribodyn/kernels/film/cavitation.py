@@ -21,10 +21,10 @@ from tribodyn.kernels.film.data import (
 )
 from tribodyn.kernels.jit import kernel
 
+#: From a bad first set the edge of the film comes back a cell a solve; from the last set one or two do.
 MOST_SOLVES = 1000
-"""From a bad first set the edge of the film comes back a cell a solve; from the last set one or two do."""
+#: Pressures and residuals this small beside the largest are zero: they change nothing but could alternate.
 ROUNDING = 1e-13
-"""Pressures and residuals this small beside the largest are zero: they change nothing but could alternate."""
 
 
 @kernel

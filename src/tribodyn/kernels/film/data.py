@@ -13,14 +13,10 @@ IntArray = NDArray[np.int64]
 FlagArray = NDArray[np.int8]
 
 CONVERGED: Final = 0
-NO_CONVERGENCE: Final = 1
-"""The set of cavitated nodes did not settle."""
-OUT_OF_RANGE: Final = 2
-"""Somewhere h < −4σ (or h ≤ 0 without roughness), or the state is not a number."""
-NOT_STEADY: Final = 3
-"""``jfo`` was asked for a moving shaft centre, or for one that does not turn."""
-NO_MEAN_GAP: Final = 4
-"""``jfo`` needs a positive mean gap everywhere."""
+NO_CONVERGENCE: Final = 1  #: The set of cavitated nodes did not settle.
+OUT_OF_RANGE: Final = 2  #: Somewhere h < −4σ (or h ≤ 0 without roughness), or the state is not a number.
+NOT_STEADY: Final = 3  #: ``jfo`` was asked for a moving shaft centre, or for one that does not turn.
+NO_MEAN_GAP: Final = 4  #: ``jfo`` needs a positive mean gap everywhere.
 
 REYNOLDS: Final = 0
 HALF_SOMMERFELD: Final = 1
@@ -28,30 +24,19 @@ NO_CAVITATION: Final = 2
 JFO: Final = 3
 
 
-SIDES: Final = 5
-"""Right-hand sides solved at once: as many as the wrench has members."""
+SIDES: Final = 5  #: Right-hand sides solved at once: as many as the wrench has members.
 
 
 class FlowTable(NamedTuple):
     """Flow, shear and contact factors of a pair of rough surfaces, as piecewise cubics.
 
     A cubic of one interval is c_0 + c_1 x + c_2 x² + c_3 x³ with x from 0 to 1 across it.
-
-    Attributes
-    ----------
-    inverse_step
-        Intervals per unit of 1/H, H = h/σ, of the factors.
-    factors
-        φ_θ, φ_z, φ_s, φ_f, φ_fp over 1/H from 0 to 2, shape (intervals, 5, 4).
-    gap_step
-        Interval of h/σ of ``mean_gap``, which begins at 0.
-    mean_gap
-        Mean gap h_T/σ, whose slope is the contact factor φ_c, shape (intervals, 4); equal to h/σ above.
     """
 
-    inverse_step: float
-    factors: FloatCube
-    gap_step: float
+    inverse_step: float  #: Intervals per unit of 1/H, H = h/σ, of the factors.
+    factors: FloatCube  #: φ_θ, φ_z, φ_s, φ_f, φ_fp over 1/H from 0 to 2, shape (intervals, 5, 4).
+    gap_step: float  #: Interval of h/σ of ``mean_gap``, which begins at 0.
+    #: Mean gap h_T/σ, whose slope is the contact factor φ_c, shape (intervals, 4); equal to h/σ above.
     mean_gap: FloatMatrix
 
 
@@ -95,29 +80,18 @@ class FilmData(NamedTuple):
 
     Nodes are uniform in θ and z; those at both ends (z = ∓length/2) carry p = 0. ``theta`` fields live on
     faces half a step after a node in θ, ``z`` fields half a step after it in z.
-
-    Attributes
-    ----------
-    constants
-        See :data:`Constants`.
-    columns
-        Of the grid, see :data:`Column`, shape (n_theta,).
-    z_node, z_face
-        Axial positions [m], shapes (n_z + 1,) and (n_z,).
-    wear_node, wear_theta, wear_z
-        Wear depth at nodes and faces [m], shapes (n_theta, n_z + 1) twice and (n_theta, n_z).
-    table
-        Factors of the rough surfaces.
     """
 
-    constants: Annotated[Record, Constants]
-    columns: Annotated[Record, Column, 1]
+    constants: Annotated[Record, Constants]  #: See :data:`Constants`.
+    columns: Annotated[Record, Column, 1]  #: Of the grid, see :data:`Column`, shape (n_theta,).
+    #: Axial positions [m], shapes (n_z + 1,) and (n_z,).
     z_node: FloatArray
     z_face: FloatArray
+    #: Wear depth at nodes and faces [m], shapes (n_theta, n_z + 1) twice and (n_theta, n_z).
     wear_node: FloatMatrix
     wear_theta: FloatMatrix
     wear_z: FloatMatrix
-    table: FlowTable
+    table: FlowTable  #: Factors of the rough surfaces.
 
 
 Row: Final = record_type(*((name, "f8") for name in ("a", "b", "v_a", "v_b", "weight", "face_a", "face_b")))
@@ -144,63 +118,34 @@ source
     Right-hand side of the equation for the pressure [1/s].
 """
 
+#: A z face: its conductance and c φ_f/h [1], each with its derivative by h.
 ZFace: Final = record_type(*((name, "f8") for name in ("k_z", "dk_z", "couette", "d_couette")))
-"""A z face: its conductance and c φ_f/h [1], each with its derivative by h."""
 
 
 class FilmFields(NamedTuple):
     """The film at one state: conductances, sources and their derivatives by the gap.
 
     Shapes: n = n_theta columns, m = n_z − 1 rows. Without tilt only the rows up to the middle are filled.
-
-    Attributes
-    ----------
-    columns
-        Of the grid, turned to the groove if there is one, see :data:`Column`, shape (n,).
-    rows
-        See :data:`Row`, shape (m + 1,): the last holds a face alone.
-    cells
-        See :data:`Cell`, shape (n, m).
-    z_faces
-        See :data:`ZFace`, shape (n, m + 1).
     """
 
+    #: Of the grid, turned to the groove if there is one, see :data:`Column`, shape (n,).
     columns: Annotated[Record, Column, 1]
-    rows: Annotated[Record, Row, 1]
-    cells: Annotated[Record, Cell, 2]
-    z_faces: Annotated[Record, ZFace, 2]
+    rows: Annotated[Record, Row, 1]  #: See :data:`Row`, shape (m + 1,): the last holds a face alone.
+    cells: Annotated[Record, Cell, 2]  #: See :data:`Cell`, shape (n, m).
+    z_faces: Annotated[Record, ZFace, 2]  #: See :data:`ZFace`, shape (n, m + 1).
 
 
 class BandSystem(NamedTuple):
-    """A symmetric system over some of the nodes, column after column, with the last column as a border.
+    """A symmetric system over some of the nodes, column after column, with the last column as a border."""
 
-    Attributes
-    ----------
-    number
-        Unknown at a node or −1, shape (n, m).
-    reach
-        Last unknown that the elimination of each one touches, shape (n m,).
-    band
-        Pivot and the entries below it, shape (n m, m + 2); the last column stays zero.
-    border
-        Rows of the border, transposed, shape (n m, m).
-    corner
-        Border against itself, shape (m, m).
-    right
-        Right-hand sides, one row an unknown, shape (n m, SIDES).
-    single
-        One more, for the pressure, shape (n m,).
-    size
-        Unknowns of the band, of the border, and the column where the numbering starts, shape (3,).
-    """
-
-    number: IntMatrix
-    reach: IntArray
-    band: FloatMatrix
-    border: FloatMatrix
-    corner: FloatMatrix
-    right: FloatMatrix
-    single: FloatArray
+    number: IntMatrix  #: Unknown at a node or −1, shape (n, m).
+    reach: IntArray  #: Last unknown that the elimination of each one touches, shape (n m,).
+    band: FloatMatrix  #: Pivot and the entries below it, shape (n m, m + 2); the last column stays zero.
+    border: FloatMatrix  #: Rows of the border, transposed, shape (n m, m).
+    corner: FloatMatrix  #: Border against itself, shape (m, m).
+    right: FloatMatrix  #: Right-hand sides, one row an unknown, shape (n m, SIDES).
+    single: FloatArray  #: One more, for the pressure, shape (n m,).
+    #: Unknowns of the band, of the border, and the column where the numbering starts, shape (3,).
     size: IntArray
 
 
@@ -230,38 +175,22 @@ class FilmMemory(NamedTuple):
     """Cavitation of the last evaluation, as a first guess, and scratch.
 
     Fields have one row a column of nodes (fixed θ) and leave the ends out: shape (n_theta, n_z − 1).
-
-    Attributes
-    ----------
-    active
-        1 where the film is full, 0 where it cavitates.
-    pressure
-        p/(6 η r²/c²) [1/s]; with ``half-sommerfeld`` before negative values are left out.
-    fill
-        Fraction of the gap that holds oil; 1 but with ``jfo``.
-    adjoint
-        Derivatives of the wrench by the source, shape (5, n_theta, n_z − 1).
-    gradient
-        Sums over rows of nodes (4) and of faces (2), shape (5, 6, n_z).
-    fields, system
-        The film at one state, and the linear system for its pressure.
-    transport, amount
-        Matrix and unknowns (π or f) of ``jfo``, behind the groove, shapes (N, 2 n_z − 1) and (N,), N =
-        (n_theta − 1)(n_z − 1); empty for the other models.
-    work
-        See :data:`Work`.
     """
 
-    active: Annotated[FlagArray, 2]
+    active: Annotated[FlagArray, 2]  #: 1 where the film is full, 0 where it cavitates.
+    #: p/(6 η r²/c²) [1/s]; with ``half-sommerfeld`` before negative values are left out.
     pressure: FloatMatrix
-    fill: FloatMatrix
-    adjoint: FloatCube
-    gradient: FloatCube
+    fill: FloatMatrix  #: Fraction of the gap that holds oil; 1 but with ``jfo``.
+    adjoint: FloatCube  #: Derivatives of the wrench by the source, shape (5, n_theta, n_z − 1).
+    gradient: FloatCube  #: Sums over rows of nodes (4) and of faces (2), shape (5, 6, n_z).
+    #: The film at one state, and the linear system for its pressure.
     fields: FilmFields
     system: BandSystem
+    #: Matrix and unknowns (π or f) of ``jfo``, behind the groove, shapes (N, 2 n_z − 1) and (N,), N =
+    #: (n_theta − 1)(n_z − 1); empty for the other models.
     transport: FloatMatrix
     amount: FloatArray
-    work: Annotated[Record, Work]
+    work: Annotated[Record, Work]  #: See :data:`Work`.
 
 
 @inlined

@@ -16,8 +16,7 @@ from tribodyn.kernels.film.attitude import groove_direction
 from tribodyn.kernels.film.data import CONVERGED, OUT_OF_RANGE, FilmData, FilmFields, FlowTable
 from tribodyn.kernels.jit import inlined, kernel
 
-LEAST_SEPARATION = 0.5
-"""Flow factors and h³ see max(h, σ/2): contact reaches below h = 0."""
+LEAST_SEPARATION = 0.5  #: Flow factors and h³ see max(h, σ/2): contact reaches below h = 0.
 
 
 @inlined
@@ -68,8 +67,7 @@ def mean_gap(table: FlowTable, roughness: float, gap: float) -> tuple[float, flo
     return roughness * cubic(c, x), slope, bend
 
 
-LEAST_RANGE = -4.0
-"""h/σ below which there is no answer."""
+LEAST_RANGE = -4.0  #: h/σ below which there is no answer.
 
 
 @kernel

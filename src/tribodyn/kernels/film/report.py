@@ -7,6 +7,7 @@ from tribodyn.core.quantities import Quantity, of_table
 from tribodyn.kernels.film.data import HALF_SOMMERFELD, FilmData, FilmMemory
 from tribodyn.kernels.jit import entry, kernel
 
+#: The report of an instant.
 FILM: Final = (
     Quantity("film_force", "N", "force of the oil film on the shaft, axes of the joint", size=3),
     Quantity(
@@ -19,8 +20,8 @@ FILM: Final = (
     Quantity("film_thickness_min", "m", "smallest gap of the oil film, negative where mean surfaces overlap"),
     Quantity("film_leakage", "m3 s-1", "volume of oil that leaves both ends per second"),
 )
-"""The report of an instant."""
 
+#: Over all accepted steps; output times would miss them.
 FILM_PEAKS: Final = (
     Quantity("film_force_peak", "N", "largest film force at any accepted step", ()),
     Quantity("film_force_peak_time", "s", "when the film force was largest", ()),
@@ -28,7 +29,6 @@ FILM_PEAKS: Final = (
     Quantity("film_pressure_peak_time", "s", "when the film pressure was largest", ()),
     Quantity("film_thickness_least", "m", "smallest gap of the oil film at any accepted step", ()),
 )
-"""Over all accepted steps; output times would miss them."""
 
 Report = of_table(FILM)
 Peaks = of_table(FILM_PEAKS)

@@ -19,29 +19,17 @@ from tribodyn.kernels.joints.pose import PHI, D, Pose, V, W
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
 
-_JOINT: Final = np.int64(0)
-"""Number of the joint; numba would compile for a plain 0 by itself."""
+_JOINT: Final = np.int64(0)  #: Number of the joint; numba would compile for a plain 0 by itself.
 
 
 class BushingData(NamedTuple):
-    """Constants of a bushing.
+    """Constants of a bushing."""
 
-    Attributes
-    ----------
-    clearance
-        Radial clearance c [m], not in the gaps of the nodes.
-    z
-        Axial positions of the rows of nodes, both edges included [m], shape (n_z + 2,).
-    wear
-        What the gap at the nodes is more than the clearance [m], shape (n_z + 2, n_theta): wear and form.
-    surface
-        The bushing as the only surface of the only joint.
-    """
-
-    clearance: float
-    z: FloatArray
+    clearance: float  #: Radial clearance c [m], not in the gaps of the nodes.
+    z: FloatArray  #: Axial positions of the rows of nodes, both edges included [m], shape (n_z + 2,).
+    #: What the gap at the nodes is more than the clearance [m], shape (n_z + 2, n_theta): wear and form.
     wear: FloatMatrix
-    surface: SurfaceData
+    surface: SurfaceData  #: The bushing as the only surface of the only joint.
 
     @property
     def roughness(self) -> float:

@@ -14,8 +14,7 @@ from typing import Final
 from tribodyn.core.quantities import Quantity, Record, of_table
 from tribodyn.kernels.jit import kernel
 
-TILT_FLOOR: Final = 1.0e-6
-"""φ_0 [rad]."""
+TILT_FLOOR: Final = 1.0e-6  #: φ_0 [rad].
 
 CONSTANTS: Final = (
     Quantity("radius", "m", "radius r_t of the collar", ()),

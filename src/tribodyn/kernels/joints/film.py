@@ -26,8 +26,8 @@ from tribodyn.kernels.joints.surface.station import derivatives_at_origin, fill_
 from tribodyn.kernels.joints.surface.tilt import AXIS, fill_tilt, moment_of
 
 SLIDES: Final = 1.0
+#: Displacement of the ends of a shaft by its tilt, over the clearance, that is rounding; so with speeds.
 LEVEL: Final = 1.0e-13
-"""Displacement of the ends of a shaft by its tilt, over the clearance, that is rounding; so with speeds."""
 
 Oil: Final = record_type(
     ("film", "f8", (5,)),

@@ -13,35 +13,24 @@ from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.memory import new_memory as new_surface_memory
 
+#: Work of one evaluation; nothing is carried from one evaluation to the next.
 Scratch: Final = record_type(
     ("pose", Pose),
     ("wrench", "f8", (N_WRENCH,)),
     ("jacobian", "f8", (N_WRENCH, N_MOTION)),
     ("report", Report),
 )
-"""Work of one evaluation; nothing is carried from one evaluation to the next."""
 
 
 class JointMemory(NamedTuple):
-    """The memory of a bushing.
+    """The memory of a bushing."""
 
-    Attributes
-    ----------
-    surface
-        That of its surface.
-    entry_velocity, sliding_load
-        Its fields over the nodes, shape (n_z + 2, n_theta).
-    extremes
-        Over all accepted steps, see ``kernels/joints/quantities.py``.
-    scratch
-        See :data:`Scratch`.
-    """
-
-    surface: SurfaceMemory
+    surface: SurfaceMemory  #: That of its surface.
+    #: Its fields over the nodes, shape (n_z + 2, n_theta).
     entry_velocity: FloatMatrix
     sliding_load: FloatMatrix
-    extremes: Annotated[Record, Extremes]
-    scratch: Annotated[Record, Scratch]
+    extremes: Annotated[Record, Extremes]  #: Over all accepted steps, see ``kernels/joints/quantities.py``.
+    scratch: Annotated[Record, Scratch]  #: See :data:`Scratch`.
 
 
 def new_memory(data: SurfaceData, field_shape: tuple[int, ...], clearance: float) -> JointMemory:

@@ -32,12 +32,10 @@ F_Z: Final = 2
 M_X: Final = 3
 M_Y: Final = 4
 M_Z: Final = 5
-N_WRENCH: Final = 6
-"""Entries of a wrench, rows of its derivative."""
+N_WRENCH: Final = 6  #: Entries of a wrench, rows of its derivative.
 
 D: Final = 0
 PHI: Final = 3
 V: Final = 6
 W: Final = 9
-N_MOTION: Final = 12
-"""First columns of displacement, tilt, velocity and rates of turning in the derivative."""
+N_MOTION: Final = 12  #: First columns of displacement, tilt, velocity and rates of turning in the derivative.

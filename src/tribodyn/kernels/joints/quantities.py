@@ -18,6 +18,7 @@ STATES: Final = (
     Quantity("phi_y_dot", "rad s-1", "tilt rate of the trunnion about Y"),
 )
 
+#: The report of an instant. Of powers it tells what friction and damping do to the motion.
 REPORTED: Final = (
     Quantity("F_cx", "N", "normal contact force on the trunnion along X"),
     Quantity("F_cy", "N", "normal contact force on the trunnion along Y"),
@@ -42,8 +43,8 @@ REPORTED: Final = (
     Quantity("M_kx", "N m", "moment of the rigid part of the contact pressure about X"),
     Quantity("M_ky", "N m", "moment of the rigid part of the contact pressure about Y (left-handed)"),
 )
-"""The report of an instant. Of powers it tells what friction and damping do to the motion."""
 
+#: Sizes whose peaks are kept, see ``kernels/peaks.py``.
 WATCHED: Final = (
     Quantity("contact_force", "N", "contact force"),
     Quantity("rigid_force", "N", "rigid part of the contact force"),
@@ -52,15 +53,13 @@ WATCHED: Final = (
     Quantity("eccentricity", "m", "distance of the trunnion centre from the bushing axis"),
     Quantity("tilt", "rad", "tilt of the trunnion"),
 )
-"""Sizes whose peaks are kept, see ``kernels/peaks.py``."""
-SHARP: Final = 4
-"""Number of those, the first ones, with sharp peaks: forces and pressure."""
+SHARP: Final = 4  #: Number of those, the first ones, with sharp peaks: forces and pressure.
 
+#: Over all accepted steps; output times would miss them.
 EXTREMES: Final = (
     Quantity("separation_least", "m", "smallest gap at any accepted step", ()),
     Quantity("tensile_clip_time", "s", "time integral of the share of the contact where the clip acts", ()),
 )
-"""Over all accepted steps; output times would miss them."""
 
 Report = of_table(REPORTED)
 Watched = of_table(WATCHED)

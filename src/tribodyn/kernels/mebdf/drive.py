@@ -42,52 +42,28 @@ SKIPPED: Final = 5
 
 
 class Marks(NamedTuple):
-    """Schedule of outputs and pictures, and those taken.
+    """Schedule of outputs and pictures, and those taken."""
 
-    Attributes
-    ----------
-    times
-        Times of outputs and pictures [s], shape (n_marks + 1,), the last one infinite.
-    is_output, is_picture
-        What is taken at each mark, shape (n_marks,).
-    tolerance
-        Times closer than this are the same [s], shape (1,).
-    rows
-        Observed quantities, shape (n_outputs, n_observed).
-    pictures
-        Fields, shape (n_pictures, ...).
-    windows
-        Stretches in which steps give rows, too [s], shape (n_windows + 1, 2), the last one at infinity.
-    step_times, step_rows
-        Times [s] and rows of these steps since the last pause, shapes (n,) and (n, n_observed); when they are
-        full, the loop pauses.
-    position
-        Next mark, rows taken, pictures taken, steps that gave rows since the last pause, the first window
-        that is not over, and how many of its steps gave none since the last one that did.
-    stride
-        Every how many steps in a window give a row, shape (1,).
-    wanted
-        Above zero where the step gives one in any case, shape (1,).
-    reached
-        Time up to which the accepted step has been walked [s], shape (1,).
-    end
-        State at the end of a part of a step, shape (n,).
-    """
-
-    times: FloatArray
+    times: FloatArray  #: Times of outputs and pictures [s], shape (n_marks + 1,), the last one infinite.
+    #: What is taken at each mark, shape (n_marks,).
     is_output: NDArray[np.bool_]
     is_picture: NDArray[np.bool_]
-    tolerance: FloatArray
-    rows: FloatMatrix
-    pictures: FloatArray
+    tolerance: FloatArray  #: Times closer than this are the same [s], shape (1,).
+    rows: FloatMatrix  #: Observed quantities, shape (n_outputs, n_observed).
+    pictures: FloatArray  #: Fields, shape (n_pictures, ...).
+    #: Stretches in which steps give rows, too [s], shape (n_windows + 1, 2), the last one at infinity.
     windows: FloatMatrix
+    #: Times [s] and rows of these steps since the last pause, shapes (n,) and (n, n_observed); when they are
+    #: full, the loop pauses.
     step_times: FloatArray
     step_rows: FloatMatrix
+    #: Next mark, rows taken, pictures taken, steps that gave rows since the last pause, the first window that
+    #: is not over, and how many of its steps gave none since the last one that did.
     position: IntArray
-    stride: IntArray
-    wanted: FloatArray
-    reached: FloatArray
-    end: FloatArray
+    stride: IntArray  #: Every how many steps in a window give a row, shape (1,).
+    wanted: FloatArray  #: Above zero where the step gives one in any case, shape (1,).
+    reached: FloatArray  #: Time up to which the accepted step has been walked [s], shape (1,).
+    end: FloatArray  #: State at the end of a part of a step, shape (n,).
 
 
 @entry

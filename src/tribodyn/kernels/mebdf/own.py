@@ -14,26 +14,14 @@ from tribodyn.kernels.jit import entry
 
 
 class OwnMatrix(NamedTuple):
-    """Work arrays of a problem's own algebra.
+    """Work arrays of a problem's own algebra."""
 
-    Attributes
-    ----------
-    places
-        Row and column of the first entries of the Jacobian, shape (2, n), n ≤ n_entries.
-    jacobian
-        Entries as filled in, shape (n_entries,).
-    last
-        Those in use: the last ones that were finite, or those before them, shape (n_entries,).
-    previous
-        The finite ones before the last, shape (n_entries,).
-    factors, pivots
-        What the problem's ``factorise`` leaves for its ``solve``.
-    """
-
-    places: IntMatrix
-    jacobian: FloatArray
+    places: IntMatrix  #: Row and column of the first entries of the Jacobian, shape (2, n), n ≤ n_entries.
+    jacobian: FloatArray  #: Entries as filled in, shape (n_entries,).
+    #: Those in use: the last ones that were finite, or those before them, shape (n_entries,).
     last: FloatArray
-    previous: FloatArray
+    previous: FloatArray  #: The finite ones before the last, shape (n_entries,).
+    #: What the problem's ``factorise`` leaves for its ``solve``.
     factors: FloatArray
     pivots: IntArray
 

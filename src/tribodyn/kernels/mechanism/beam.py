@@ -23,8 +23,7 @@ from tribodyn.kernels.mechanism.data import DAMPING, SLOPES
 
 _STRAIN = 6
 _RATE = 7
-_FORCE = 8
-"""Columns of the work space behind the gradients of the strains."""
+_FORCE = 8  #: Columns of the work space behind the gradients of the strains.
 
 
 @kernel

@@ -19,9 +19,9 @@ BLOCK: Final = N * COLUMN
 INVERT: Final = 0
 DIVIDE: Final = 1
 SUBTRACT: Final = 2
+#: Operations: replace a block by its inverse; multiply one from the right by another; subtract a product;
+#: replace a symmetric, positive definite block by its inverse.
 INVERT_DEFINITE: Final = 3
-"""Operations: replace a block by its inverse; multiply one from the right by another; subtract a product;
-replace a symmetric, positive definite block by its inverse."""
 
 
 @kernel

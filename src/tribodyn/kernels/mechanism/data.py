@@ -25,15 +25,14 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.pose import Pose
 
 N: Final = 6
+#: Unknowns of a node of the linear systems, and the numbers that a column of them takes up.
 COLUMN: Final = 8
-"""Unknowns of a node of the linear systems, and the numbers that a column of them takes up."""
 
+#: Of a body: mass centre (3) [m], unit quaternion (4), velocity (3) [m/s], angular velocity (3) [rad/s].
 N_STATES: Final = 13
-"""Of a body: mass centre (3) [m], unit quaternion (4), velocity (3) [m/s], angular velocity (3) [rad/s]."""
 ORIENTATION: Final = 3
 VELOCITY: Final = 7
-TURNING: Final = 10
-"""First states of quaternion, velocity, and angular velocity in the axes of the body."""
+TURNING: Final = 10  #: First states of quaternion, velocity, and angular velocity in the axes of the body.
 
 POINT: Final = 0
 DIRECTION: Final = 1
@@ -41,8 +40,7 @@ ANGLE: Final = 2
 POSITION: Final = 3
 COORDINATE: Final = 4
 DISTANCE: Final = 5
-PATH: Final = 6
-"""Kinds of constraint rows, see ``kernels/mechanism/constraints.py``."""
+PATH: Final = 6  #: Kinds of constraint rows, see ``kernels/mechanism/constraints.py``.
 
 NOTHING: Final = 0
 SPRINGS: Final = 1
@@ -52,24 +50,22 @@ LOAD_BODY: Final = 4
 LOAD_MOTION: Final = 5
 LOAD_LINE: Final = 6
 CONTACT: Final = 7
-BEAM: Final = 8
-"""Kinds of forces, see ``kernels/mechanism/forces.py``."""
+BEAM: Final = 8  #: Kinds of forces, see ``kernels/mechanism/forces.py``.
 
 TIME: Final = 0
 FOLLOWED: Final = 1
+#: Variables of a load's terms, in the order of ``kernels/actions.py``: time, coordinate and speed of a joint;
+#: the latter is the speed that a load opposes where it follows no joint.
 FOLLOWED_SPEED: Final = 2
-"""Variables of a load's terms, in the order of ``kernels/actions.py``: time, coordinate and speed of a
-joint; the latter is the speed that a load opposes where it follows no joint."""
 
-NONE: Final = -1
-"""Number of a signal, node, block or coupling that is not there."""
+NONE: Final = -1  #: Number of a signal, node, block or coupling that is not there.
 
 INTACT: Final = 0
 OPENED: Final = 1
 OVERLAPPED: Final = 2
+#: States of a joint: intact, an ideal one has come apart, mean planes overlap further than the contact law
+#: reaches, the shaft has left its socket.
 LEFT: Final = 3
-"""States of a joint: intact, an ideal one has come apart, mean planes overlap further than the
-contact law reaches, the shaft has left its socket."""
 
 PLAIN: Final = 0.0
 SLOPES: Final = 1.0
@@ -84,18 +80,20 @@ DAMPING: Final = 1
 FRICTION: Final = 2
 FILM: Final = 3
 EXPANSION: Final = 4
-N_POWERS: Final = 5
-"""Powers of a coupling, and their number."""
+N_POWERS: Final = 5  #: Powers of a coupling, and their number.
 
+#: Gravity [m/s²], size of the mechanism [m], number of all constraint rows and of those that are independent,
+#: of nodes, of the blocks that hold the work space of solutions, of couplings whose forces follow reactions,
+#: and of entries of the iteration matrix that solutions need.
 Constants: Final = record_type(
     ("gravity", "f8", (3,)),
     ("size", "f8"),
     *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work", "n_reactive", "n_entries")),
 )
-"""Gravity [m/s²], size of the mechanism [m], number of all constraint rows and of those that are independent,
-of nodes, of the blocks that hold the work space of solutions, of couplings whose forces follow
-reactions, and of entries of the iteration matrix that solutions need."""
 
+#: Mass [kg]; mass centre as drawn [m]; inertia about the mass centre in the axes of the body, which are those
+#: of the drawing at first; its inverse; 1 where its block of the equations of motion is its inverse already
+#: when they are factorised, because nothing is subtracted from it before.
 Body: Final = record_type(
     ("mass", "f8"),
     ("inertia", "f8", (3, 3)),
@@ -103,13 +101,10 @@ Body: Final = record_type(
     ("centre", "f8", (3,)),
     ("inverted", "i8"),
 )
-"""Mass [kg]; mass centre as drawn [m]; inertia about the mass centre in the axes of the body, which are those
-of the drawing at first; its inverse; 1 where its block of the equations of motion is its inverse already when
-they are factorised, because nothing is subtracted from it before."""
 
 N_PARAMETERS: Final = 16
+#: Parameters of a force law, which reads them by the names of its own record.
 Parameters: Final = record_type(("values", "f8", (N_PARAMETERS,)))
-"""Parameters of a force law, which reads them by the names of its own record."""
 
 Law: Final = record_type(
     *((name, "f8") for name in ("position", "rate", "entry_rate", "held", "normal")),
@@ -250,6 +245,9 @@ bodies_block
     Blocks (socket, shaft) and (shaft, socket) of the iteration matrix.
 """
 
+#: Of a body at one instant: its states, its attitude (body to global), the force and, in its own axes, the
+#: moment on it without constraints, and its acceleration with the angular one in its own axes; derivative of
+#: ω × J ω in ω.
 BodyNow: Final = record_type(
     ("r", "f8", (3,)),
     ("p", "f8", (4,)),
@@ -260,9 +258,6 @@ BodyNow: Final = record_type(
     ("acceleration", "f8", (6,)),
     ("gyroscopic", "f8", (3, 3)),
 )
-"""Of a body at one instant: its states, its attitude (body to global), the force and, in its own axes, the
-moment on it without constraints, and its acceleration with the angular one
-in its own axes; derivative of ω × J ω in ω."""
 
 CouplingNow: Final = record_type(
     ("pose", Pose),
@@ -353,6 +348,11 @@ law
     Of the first leg of an element with a force law.
 """
 
+#: State of the segment [begin, until] whose pieces of tables hold; accepted steps until redundant rows are
+#: chosen again; energies [J], momentum and external force with moments about the origin; what has become of a
+#: joint, ``INTACT`` or another of the kinds above, and the number of the coupling that has ``OPENED`` or of
+#: the surface. From then on no rate is a number, which stops every integrator. Trial states may lie beyond a
+#: law: it goes on linearly.
 Course: Final = record_type(
     ("begin", "f8"),
     ("until", "f8"),
@@ -365,124 +365,71 @@ Course: Final = record_type(
     ("broken", "i8"),
     ("broken_at", "i8"),
 )
-"""State of the segment [begin, until] whose pieces of tables hold; accepted steps until
-redundant rows are chosen again; energies [J], momentum and external force with moments about the origin; what
-has become of a joint, ``INTACT`` or another of the kinds above, and the number of the coupling that has
-``OPENED`` or of the surface. From then on no rate is a number, which stops every integrator. Trial states may
-lie beyond a law: it goes on linearly."""
 
 
+#: Integrands at three marks, and their integrals: powers of a coupling, external force, its moment.
 Book: Final = record_type(("marks", "f8", (3, N_POWERS)), ("sums", "f8", (N_POWERS,)))
-"""Integrands at three marks, and their integrals: powers of a coupling, external force, its moment."""
 
 
 class Pattern(NamedTuple):
-    """Operations on blocks that factorise and solve, see ``kernels/mechanism/blocks.py``.
+    """Operations on blocks that factorise and solve, see ``kernels/mechanism/blocks.py``."""
 
-    Attributes
-    ----------
-    factor
-        Operation, up to three blocks, how many columns of the first are touched, and how many unknowns the
-        node has that is eliminated, shape (n, 6).
-    forward, backward
-        Block, row, column, and how many unknowns the node of the column has, shape (n, 4).
-    exchanges
-        Work space, shape (6,).
-    """
-
+    #: Operation, up to three blocks, how many columns of the first are touched, and how many unknowns the
+    #: node has that is eliminated, shape (n, 6).
     factor: IntMatrix
+    #: Block, row, column, and how many unknowns the node of the column has, shape (n, 4).
     forward: IntMatrix
     backward: IntMatrix
-    exchanges: IntArray
+    exchanges: IntArray  #: Work space, shape (6,).
 
 
 class Parts(NamedTuple):
-    """Parts of a mechanism, as records named above; most kernels need no more.
+    """Parts of a mechanism, as records named above; most kernels need no more."""
 
-    Attributes
-    ----------
-    constants, bodies, couplings
-        One record; one for each body; one for each coupling.
-    """
-
+    #: One record; one for each body; one for each coupling.
     constants: Annotated[Record, Constants]
     bodies: Annotated[Record, Body, 1]
     couplings: Annotated[Record, Coupling, 1]
 
 
 class Now(NamedTuple):
-    """Places of the parts at one instant, and work space.
+    """Places of the parts at one instant, and work space."""
 
-    Attributes
-    ----------
-    course, bodies, couplings
-        Records named above; of ``bodies`` the last is the ground.
-    x, rest, left
-        Unknowns and right-hand sides of the nodes, and what a solution leaves of them, shape (n_nodes, 8).
-    """
-
+    #: Records named above; of ``bodies`` the last is the ground.
     course: Annotated[Record, Course]
     bodies: Annotated[Record, BodyNow, 1]
     couplings: Annotated[Record, CouplingNow, 1]
+    #: Unknowns and right-hand sides of the nodes, and what a solution leaves of them, shape (n_nodes, 8).
     x: FloatMatrix
     rest: FloatMatrix
     left: FloatMatrix
 
 
 class MechanismData(NamedTuple):
-    """Constant data of the kernels.
+    """Constant data of the kernels."""
 
-    Attributes
-    ----------
-    parts
-        See :class:`Parts`.
-    signals, terms
-        What drives and loads follow; terms of all loads, see ``kernels/actions.py``.
-    mass, newton
-        Patterns of the equations of motion and of the iteration matrix of implicit methods.
-    contact
-        All joints with clearance.
-    films
-        The oil films of all joints that have one, see ``kernels/film/data.py``.
-    """
-
-    parts: Parts
+    parts: Parts  #: See :class:`Parts`.
+    #: What drives and loads follow; terms of all loads, see ``kernels/actions.py``.
     signals: Signals
     terms: Annotated[Record, Term, 1]
+    #: Patterns of the equations of motion and of the iteration matrix of implicit methods.
     mass: Pattern
     newton: Pattern
-    contact: SurfaceData
+    contact: SurfaceData  #: All joints with clearance.
+    #: The oil films of all joints that have one, see ``kernels/film/data.py``.
     films: Annotated[FilmData, STACKED]
 
 
 class MechanismMemory(NamedTuple):
-    """History variables, changed at accepted steps, and work arrays.
+    """History variables, changed at accepted steps, and work arrays."""
 
-    Attributes
-    ----------
-    now
-        See :class:`Now`.
-    blocks
-        Matrix by blocks, each column by column, shape (n_blocks, 6, 8).
-    independence
-        Products of all rows, shape (n_rows, n_rows); of no size without redundant rows.
-    settled
-        State on the constraints that ``advance`` or ``enter`` has left, shape (n,).
-    books
-        Powers and works, see ``kernels/mechanism/ledger.py``.
-    contact
-        What the joints with clearance remember.
-    films
-        Caches of the films.
-    oil
-        What each film does to its joint, see ``kernels/joints/film.py``, shape (n_films,).
-    """
-
-    now: Now
-    blocks: FloatCube
+    now: Now  #: See :class:`Now`.
+    blocks: FloatCube  #: Matrix by blocks, each column by column, shape (n_blocks, 6, 8).
+    #: Products of all rows, shape (n_rows, n_rows); of no size without redundant rows.
     independence: FloatMatrix
-    settled: FloatArray
-    books: Annotated[Record, Book, 1]
-    contact: SurfaceMemory
-    films: Annotated[FilmMemory, STACKED]
+    settled: FloatArray  #: State on the constraints that ``advance`` or ``enter`` has left, shape (n,).
+    books: Annotated[Record, Book, 1]  #: Powers and works, see ``kernels/mechanism/ledger.py``.
+    contact: SurfaceMemory  #: What the joints with clearance remember.
+    films: Annotated[FilmMemory, STACKED]  #: Caches of the films.
+    #: What each film does to its joint, see ``kernels/joints/film.py``, shape (n_films,).
     oil: Annotated[Record, Oil, 1]

@@ -13,9 +13,9 @@ from tribodyn.kernels.mechanism.blocks import factorise, solve
 from tribodyn.kernels.mechanism.data import NONE, Coupling, Now, Parts, Pattern
 
 ROUNDS: Final = 3
+#: Most solutions for the multipliers; part of the energy that the last one may change where the factors are
+#: those of another position: one more would change less than the square of it.
 NEGLIGIBLE: Final = 1.0e-12
-"""Most solutions for the multipliers; part of the energy that the last one may change where the factors are
-those of another position: one more would change less than the square of it."""
 
 
 @entry

@@ -17,8 +17,7 @@ from tribodyn.kernels.mechanism.solution import (
 )
 from tribodyn.kernels.mechanism.vectors import turn
 
-_TRIES: Final = 3
-"""Times that joints are closed: dependent rows may open again by the first correction."""
+_TRIES: Final = 3  #: Times that joints are closed: dependent rows may open again by the first correction.
 
 
 @entry

@@ -34,8 +34,7 @@ from tribodyn.kernels.mechanism.observe import fill_row, watch
 from tribodyn.kernels.mechanism.redundancy import SMALL, choose_rows
 from tribodyn.kernels.mechanism.solution import accelerations, mark_angles, settle
 
-BEFORE_KINK: Final = 1.0e-9
-"""Part of a segment by which its pieces end before the kink."""
+BEFORE_KINK: Final = 1.0e-9  #: Part of a segment by which its pieces end before the kink.
 
 
 @entry
@@ -182,6 +181,7 @@ def picture(
 
 
 LOOP: Final = loop(rhs, jac_entries, advance, accept, observe, picture, factorise, solve)
+#: Functions by the names that ``CompiledFunctions`` of ``core/problem.py`` has for them.
 FUNCTIONS: Final[dict[str, Any]] = {
     "rhs": rhs,
     "jac": jac_entries,
@@ -191,4 +191,3 @@ FUNCTIONS: Final[dict[str, Any]] = {
     "observe": observe,
     "picture": picture,
 }
-"""Functions by the names that ``CompiledFunctions`` of ``core/problem.py`` has for them."""

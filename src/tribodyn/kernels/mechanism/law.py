@@ -19,27 +19,19 @@ from tribodyn.kernels.jit import SOURCES, inlined, kernel
 from tribodyn.kernels.mechanism.data import DAMPING, FRICTION, NONE, WORK, Law
 
 LEAST_SLOPE: Final = -1.0e4
+#: Slopes of a reaction over the load that are extrapolated: beyond, rounds are taken as they come.
 LARGEST_SLOPE: Final = 0.999
-"""Slopes of a reaction over the load that are extrapolated: beyond, rounds are taken as they come."""
-SAME: Final = 1.0e-10
-"""Difference of load and reaction, over these, that may be rounding: the load is kept."""
+SAME: Final = 1.0e-10  #: Difference of load and reaction, over these, that may be rounding: the load is kept.
+#: Change of a load, over the reaction, below which rounding decides about the slope.
 LEAST_CHANGE: Final = 1.0e-6
-"""Change of a load, over the reaction, below which rounding decides about the slope."""
 
 
 @dataclass(frozen=True, eq=False)
 class LawFunction:
-    """A force law.
+    """A force law."""
 
-    Attributes
-    ----------
-    function
-        The law, in Python that numba compiles; it allocates nothing.
-    parameters
-        Names of the parameters that it reads, in the order in which its record holds them.
-    """
-
-    function: Callable[[Any, Any], None]
+    function: Callable[[Any, Any], None]  #: The law, in Python that numba compiles; it allocates nothing.
+    #: Names of the parameters that it reads, in the order in which its record holds them.
     parameters: tuple[str, ...]
 
     def __post_init__(self) -> None:
@@ -82,8 +74,7 @@ def force_law(*parameters: str) -> Callable[[Callable[[Any, Any], None]], LawFun
     return lambda function: LawFunction(function, parameters)
 
 
-_laws: Final[list[LawFunction]] = []
-"""Laws by their numbers from 1 on, where nothing is compiled."""
+_laws: Final[list[LawFunction]] = []  #: Laws by their numbers from 1 on, where nothing is compiled.
 
 
 def _in_python(number: int, held: Record, law: Record) -> None:

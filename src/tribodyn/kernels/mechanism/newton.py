@@ -39,17 +39,15 @@ from tribodyn.kernels.mechanism.data import (
     Parts,
 )
 
+#: Entries that have a place in ∂f/∂y, before all others: of each body, what its own place does to its
+#: acceleration.
 N_PLACES: Final = 18
-"""Entries that have a place in ∂f/∂y, before all others: of each body, what its own place does to its
-acceleration."""
+#: Of each body: quaternion (4), angular velocity (3), derivative of the gyroscopic moment (9).
 N_BODY: Final = 16
-"""Of each body: quaternion (4), angular velocity (3), derivative of the gyroscopic moment (9)."""
 GYROSCOPIC: Final = 7
-N_PAIR: Final = 72
-"""Of a pair of sides: K_q, K_v (6, 6)."""
+N_PAIR: Final = 72  #: Of a pair of sides: K_q, K_v (6, 6).
 KV: Final = 36
-N_ROW: Final = 18
-"""Of a row and a side: rows of Γ_q, Γ_v, G."""
+N_ROW: Final = 18  #: Of a row and a side: rows of Γ_q, Γ_v, G.
 N_COMPLIANCE: Final = 6
 
 

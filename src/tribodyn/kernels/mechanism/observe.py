@@ -157,8 +157,8 @@ def _film(k: int, oil: Any, out: Record) -> None:
     out.film_leakage = report.film_leakage
 
 
+#: Residual of an ideal joint, in units of the mechanism's size or in radians, that is not rounding.
 OPEN: Final = 1.0e-6
-"""Residual of an ideal joint, in units of the mechanism's size or in radians, that is not rounding."""
 
 
 @kernel

@@ -30,6 +30,7 @@ WHOLE: Final = (
     Quantity("gap_rate", "1", "largest rate of it, in m/s or rad/s"),
 )
 
+#: In global axes.
 BODY: Final = (
     Quantity("position", "m", "mass centre of the body", size=3),
     Quantity("orientation", "1", "quaternion that turns the body from the drawing", size=4),
@@ -38,8 +39,8 @@ BODY: Final = (
     Quantity("acceleration", "m s-2", "acceleration of the mass centre", size=3),
     Quantity("angular_acceleration", "rad s-2", "angular acceleration of the body, global axes", size=3),
 )
-"""In global axes."""
 
+#: Of a joint, a spring or a load. Kernels observe them for the shaft; results, for the second body.
 COUPLING: Final = (
     Quantity("joint_angle", "rad", "angle of the second body about the axis, from the drawing"),
     Quantity("displacement", "m", "displacement of the shaft in its socket, axes of the joint", size=3),
@@ -84,8 +85,8 @@ COUPLING: Final = (
     Quantity("film_power", "W", "power that the oil film turns into heat in the joint"),
     Quantity("joint_film", "J", "heat of the oil film in the joint"),
 )
-"""Of a joint, a spring or a load. Kernels observe them for the shaft; results, for the second body."""
 
+#: Those that change their sign where the shaft is on the first body.
 OF_SECOND: Final = frozenset(
     {
         "joint_angle",
@@ -99,12 +100,10 @@ OF_SECOND: Final = frozenset(
         "drive_force",
     }
 )
-"""Those that change their sign where the shaft is on the first body."""
 
 Whole: Final = of_table(WHOLE)
 Body: Final = of_table(BODY)
 Coupling: Final = of_table(COUPLING)
 N_WHOLE: Final = Whole.itemsize // 8
 N_BODY: Final = Body.itemsize // 8
-N_COUPLING: Final = Coupling.itemsize // 8
-"""Numbers in each record."""
+N_COUPLING: Final = Coupling.itemsize // 8  #: Numbers in each record.

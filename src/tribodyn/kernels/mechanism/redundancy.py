@@ -9,10 +9,8 @@ from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.solution import set_compliance
 
-PREFERRED: Final = 10.0
-"""Advantage that a row needs to take the place of one that was independent before."""
-SMALL: Final = 48
-"""Number of rows up to which dependent ones are looked for after every step."""
+PREFERRED: Final = 10.0  #: Advantage that a row needs to take the place of one that was independent before.
+SMALL: Final = 48  #: Number of rows up to which dependent ones are looked for after every step.
 
 
 @entry

@@ -54,21 +54,19 @@ from tribodyn.kernels.mechanism.law import call_law, fill_law
 from tribodyn.kernels.mechanism.relative import relative_position, relative_velocity, whole_angle
 
 HARD: Final = 1.0e-8
-SOFT: Final = 1.0
-"""Compliances of rows, in units of the inverse mass that a row moves."""
+SOFT: Final = 1.0  #: Compliances of rows, in units of the inverse mass that a row moves.
 MOST_CORRECTIONS: Final = 6
 MOST_ROUNDS: Final = 60
+#: Rounds in which forces that follow reactions must settle, and the relative change from which they have.
 SETTLED: Final = 1.0e-13
-"""Rounds in which forces that follow reactions must settle, and the relative change from which they have."""
 CLOSED: Final = 1.0e-14
 """Residual of constraints, relative to the size of the mechanism, that is none.
 
 With 1e-12 mechanisms leave positions in which constraints degenerate along another branch.
 """
+#: Residual, relative to the size, whose correction may turn shafts so far that whole turns count anew.
 FAR: Final = 1.0e-3
-"""Residual, relative to the size, whose correction may turn shafts so far that whole turns count anew."""
-EXACT: Final = 1.0e-14
-"""Part of what the rows carry that their accelerations may miss."""
+EXACT: Final = 1.0e-14  #: Part of what the rows carry that their accelerations may miss.
 
 
 @entry

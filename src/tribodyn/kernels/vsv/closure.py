@@ -23,10 +23,10 @@ def place(data: VsvData, t: float, y: FloatArray, omega: float, direction: float
 
 
 MAX_NEWTON = 30
+#: Newton step after which another one would be below rounding: each is about the square of the last [rad].
 CONVERGED = 1.0e-10
-"""Newton step after which another one would be below rounding: each is about the square of the last [rad]."""
+#: Newton step up to which few terms of the series of its sine and cosine are exact to rounding [rad].
 SMALL_STEP: Final = 1.0e-2
-"""Newton step up to which few terms of the series of its sine and cosine are exact to rounding [rad]."""
 
 
 @kernel

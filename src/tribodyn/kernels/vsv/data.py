@@ -15,6 +15,7 @@ from tribodyn.kernels.peaks import Peaks
 from tribodyn.kernels.vsv.layout import N_BODY, N_COLUMNS, N_COORDINATES, N_IDEAL, N_ROWS
 from tribodyn.kernels.vsv.quantities import FORCES, POWERS
 
+#: Constants of the mechanism, symbols of the paper.
 CONSTANTS: Final = tuple(
     Quantity(name, unit, meaning, ())
     for name, unit, meaning in (
@@ -51,16 +52,15 @@ CONSTANTS: Final = tuple(
         ("ideal_inverse_step", "rad-1", "its nodes per radian"),
     )
 )
-"""Constants of the mechanism, symbols of the paper."""
 
+#: These, and mass or moment of inertia [kg, kg m²] and gravity load [N] of each row of the motion table, and
+#: (θ_v, step dθ_v/dθ_a) of the ideal mechanism [rad].
 Mechanism: Final = record_type(
     *((name, "f8") for name in names(CONSTANTS)),
     ("inertia", "f8", (N_ROWS,)),
     ("weight", "f8", (N_ROWS,)),
     ("ideal", "f8", (N_IDEAL + 1, 2)),
 )
-"""These, and mass or moment of inertia [kg, kg m²] and gravity load [N] of each row of the motion table, and
-(θ_v, step dθ_v/dθ_a) of the ideal mechanism [rad]."""
 
 
 def new_mechanism(**constants: float | FloatArray) -> Record:
@@ -72,14 +72,13 @@ def new_mechanism(**constants: float | FloatArray) -> Record:
     return mechanism
 
 
-CRANK: Final = 0
-"""Number of the signal that is the crank angle over time, where there is one."""
+CRANK: Final = 0  #: Number of the signal that is the crank angle over time, where there is one.
 TIME: Final = 0
 VANE: Final = 1
 CRANK_ANGLE: Final = 2
 VANE_SPEED: Final = 3
+#: Variables of loads, in the order of ``kernels/actions.py``: time, θ_v and θ_a, and their rates.
 CRANK_SPEED: Final = 4
-"""Variables of loads, in the order of ``kernels/actions.py``: time, θ_v and θ_a, and their rates."""
 
 AIR_X: Final = 0
 AIR_Y: Final = 1
@@ -87,30 +86,18 @@ AIR_Z: Final = 2
 BEND_X: Final = 3
 BEND_Y: Final = 4
 AIR_M: Final = 5
+#: Loads on the vane: forces through its centre O_v [N], what their line of action adds about X and Y (the
+#: latter left-handed), and the moment about Z [N m].
 N_AIR: Final = 6
-"""Loads on the vane: forces through its centre O_v [N], what their line of action adds about X and Y (the
-latter left-handed), and the moment about Z [N m]."""
 
 
 class VsvData(NamedTuple):
-    """Constant data of the kernels of the mechanism.
+    """Constant data of the kernels of the mechanism."""
 
-    Attributes
-    ----------
-    mechanism
-        Its constants.
-    joint
-        The bushing.
-    collar
-        The thrust collar, see ``kernels/joints/collar.py``.
-    actions
-        The drive, where it is no sinusoid, loads from tables, and the segments of the run.
-    """
-
-    mechanism: Annotated[Record, Mechanism]
-    joint: BushingData
-    collar: Annotated[Record, Collar]
-    actions: Actions
+    mechanism: Annotated[Record, Mechanism]  #: Its constants.
+    joint: BushingData  #: The bushing.
+    collar: Annotated[Record, Collar]  #: The thrust collar, see ``kernels/joints/collar.py``.
+    actions: Actions  #: The drive, where it is no sinusoid, loads from tables, and the segments of the run.
 
 
 Scratch: Final = record_type(
@@ -141,36 +128,19 @@ alone; ``angles`` are θ_sz and θ_sx with two derivatives, in ``printed``.
 ``marked`` is 1 while the others hold what the ledger evaluated at its mark.
 """
 
+#: Books of energy, see ``kernels/ledger.py``.
 Books: Final = books_type(len(POWERS), len(FORCES), N_COORDINATES)
-"""Books of energy, see ``kernels/ledger.py``."""
 
 
 class VsvMemory(NamedTuple):
-    """History variables, changed at accepted steps.
+    """History variables, changed at accepted steps."""
 
-    Attributes
-    ----------
-    joint
-        What the bushing remembers.
-    collar
-        Extremes of the thrust collar.
-    segment
-        What holds until the next kink, see ``kernels/actions.py``.
-    regime
-        Direction of the ideal vane motion, ±1; the vane speed that traction is told instead of the actual
-        one (0: none); and 1 once an accepted step has left the range of the contact law, shape (3,).
-    peaks
-        Of ``WATCHED`` in ``kernels/vsv/quantities.py``.
-    books
-        What the energy ledgers have added up, see ``kernels/ledger.py``.
-    scratch
-        See :data:`Scratch`.
-    """
-
-    joint: JointMemory
-    collar: Annotated[Record, CollarExtremes]
-    segment: Annotated[Record, Segment]
+    joint: JointMemory  #: What the bushing remembers.
+    collar: Annotated[Record, CollarExtremes]  #: Extremes of the thrust collar.
+    segment: Annotated[Record, Segment]  #: What holds until the next kink, see ``kernels/actions.py``.
+    #: Direction of the ideal vane motion, ±1; the vane speed that traction is told instead of the actual one
+    #: (0: none); and 1 once an accepted step has left the range of the contact law, shape (3,).
     regime: FloatArray
-    peaks: Peaks
-    books: Annotated[Record, Books]
-    scratch: Annotated[Record, Scratch]
+    peaks: Peaks  #: Of ``WATCHED`` in ``kernels/vsv/quantities.py``.
+    books: Annotated[Record, Books]  #: What the energy ledgers have added up, see ``kernels/ledger.py``.
+    scratch: Annotated[Record, Scratch]  #: See :data:`Scratch`.

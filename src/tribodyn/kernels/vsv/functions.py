@@ -16,13 +16,13 @@ from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_grad
 from tribodyn.kernels.vsv.layout import THETA_V, VALUE
 from tribodyn.kernels.vsv.observe import observe
 
+#: Entry of the regime that is above zero once a step was accepted beyond a limit. From then on no force is a
+#: number, which stops every integrator. Trial states may lie there: the law goes on linearly.
 BEYOND: Final = 2
-"""Entry of the regime that is above zero once a step was accepted beyond a limit. From then on no force is a
-number, which stops every integrator. Trial states may lie there: the law goes on linearly."""
 BEYOND_LAW: Final = 1.0
+#: Its values: beyond the range of the contact law, and where the mechanism cannot be joined, without an angle
+#: of the vane.
 BEYOND_REACH: Final = 2.0
-"""Its values: beyond the range of the contact law, and where the mechanism cannot be joined, without an angle
-of the vane."""
 
 
 @entry
@@ -102,6 +102,7 @@ def kinetostatic_residual(
 
 
 LOOP: Final = loop(rhs, jac, advance, accept, observe, picture)
+#: Functions by the names that ``CompiledFunctions`` of ``core/problem.py`` has for them.
 FUNCTIONS: Final[dict[str, Any]] = {
     "rhs": rhs,
     "jac": jac,
@@ -111,4 +112,3 @@ FUNCTIONS: Final[dict[str, Any]] = {
     "observe": observe,
     "picture": picture,
 }
-"""Functions by the names that ``CompiledFunctions`` of ``core/problem.py`` has for them."""

@@ -37,18 +37,14 @@ S3_X: Final = 25
 S3_Y: Final = 26
 S3_Z: Final = 27
 N_ROWS: Final = 28
-N_BODY: Final = 20
-"""Rows of bodies, with an inertia or a force; the others are points that connect them."""
+N_BODY: Final = 20  #: Rows of bodies, with an inertia or a force; the others are points that connect them.
 
-D_CRANK: Final = 0
-"""Column of ∂/∂θ_a; columns 1 to 4 are ∂/∂(e_x, e_y, φ_x, φ_y)."""
+D_CRANK: Final = 0  #: Column of ∂/∂θ_a; columns 1 to 4 are ∂/∂(e_x, e_y, φ_x, φ_y).
 VELOCITY: Final = 5
 BIAS: Final = 6
 VALUE: Final = 7
 N_COLUMNS: Final = 8
 
-N_IDEAL: Final = 512
-"""Intervals of the table of the ideal mechanism."""
+N_IDEAL: Final = 512  #: Intervals of the table of the ideal mechanism.
 
-N_COORDINATES: Final = 4
-"""Clearance coordinates e_x, e_y, φ_x, φ_y."""
+N_COORDINATES: Final = 4  #: Clearance coordinates e_x, e_y, φ_x, φ_y.

@@ -62,16 +62,15 @@ def _tabulated(data: VsvData, segment: Record, t: float) -> tuple[float, float, 
     return evaluate(data.actions.signals, CRANK, t, held(segment, TIME, t))
 
 
+#: Angle of the crank [rad], its speed [rad/s] and acceleration [rad/s²].
 Crank: TypeAlias = tuple[float, float, float]
-"""Angle of the crank [rad], its speed [rad/s] and acceleration [rad/s²]."""
 Four: TypeAlias = tuple[float, float, float, float]
 
-CENTRED: Final = (0.0, 0.0, 0.0, 0.0)
-"""Place, and rates, of a trunnion in the middle of its bushing."""
+CENTRED: Final = (0.0, 0.0, 0.0, 0.0)  #: Place, and rates, of a trunnion in the middle of its bushing.
 SHIFTED: Final = np.array([O2_X, O2_Y, O3_X, O3_Y])
 SHIFTS: Final = np.array([0, 1, 0, 1])
+#: Rows that the clearance motion shifts in ``paper``, by which coordinate and by how much of it.
 SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
-"""Rows that the clearance motion shifts in ``paper``, by which coordinate and by how much of it."""
 
 
 @kernel

@@ -43,6 +43,7 @@ REACTIONS: Final = (
     Quantity("M_bz", "N m", "moment of the casing on the unison ring about Z"),
     Quantity("F_cz", "N", "force of the thrust collar on the trunnion along Z"),
 )
+#: In the order of the loads in ``kernels/vsv/data.py``.
 AIR: Final = (
     Quantity("F_airx", "N", "aerodynamic force on the vane along X"),
     Quantity("F_airy", "N", "aerodynamic force on the vane along Y"),
@@ -53,11 +54,11 @@ AIR: Final = (
     ),
     Quantity("M_air", "N m", "aerodynamic moment on the vane about Z"),
 )
-"""In the order of the loads in ``kernels/vsv/data.py``."""
 ENERGIES: Final = (
     Quantity("energy_kinetic", "J", "kinetic energy of all bodies"),
     Quantity("energy_gravity", "J", "gravity energy of all bodies"),
 )
+#: Whole mechanism: what is integrated from powers.
 POWERS: Final = (
     Quantity("work_drive", "J", "work of the drive"),
     Quantity("work_loads", "J", "work of the loads on the vane"),
@@ -66,14 +67,13 @@ POWERS: Final = (
     Quantity("work_collar_tilt", "J", "work of the thrust collar on tilting"),
     Quantity("work_expansion", "J", "work of the expansion on what the contact stores"),
 )
-"""Whole mechanism: what is integrated from powers."""
+#: Clearance motion: what is integrated from forces on its coordinates.
 FORCES: Final = (
     Quantity("heat_damping", "J", "damping heat of the contact"),
     Quantity("work_clearance_loads", "J", "clearance motion: work of everything but the joint"),
     Quantity("work_clearance_friction", "J", "clearance motion: work of friction"),
     Quantity("work_clearance_collar", "J", "clearance motion: work of the thrust collar"),
 )
-"""Clearance motion: what is integrated from forces on its coordinates."""
 INERTIA: Final = (Quantity("work_clearance_inertia", "J", "clearance motion: what inertia has taken in"),)
 
 WATCHED_TABLES: Final = {
@@ -83,8 +83,8 @@ WATCHED_TABLES: Final = {
         Quantity("vane_angle_error", "rad", "vane-angle error"),
     ),
 }
+#: Sizes whose peaks are kept after each reversal, in the order of ``kernels/peaks.py``.
 WATCHED: Final = together(WATCHED_TABLES)
-"""Sizes whose peaks are kept after each reversal, in the order of ``kernels/peaks.py``."""
 
 TABLES: Final = {
     "states": STATES,
@@ -96,8 +96,7 @@ TABLES: Final = {
     "energies": ENERGIES,
     "works": (*POWERS, *FORCES, *INERTIA),
 }
-QUANTITIES: Final = together(TABLES)
-"""Everything observed, in the order of a row."""
+QUANTITIES: Final = together(TABLES)  #: Everything observed, in the order of a row.
 OBSERVED: Final = names(QUANTITIES)
 
 Row: Final = of_tables(TABLES)

@@ -10,6 +10,7 @@ from tribodyn.mechanism.analyses.statics import find_equilibria, require_equilib
 from tribodyn.mechanism.analyses.vibrations import find_rest, require_freedom
 from tribodyn.mechanism.assembly.assembly import Assembly
 
+#: Effects that each analysis leaves out, in words.
 NOTES: Final[dict[str, tuple[str, ...]]] = {
     "dynamic": (),
     "static": (
@@ -29,7 +30,6 @@ NOTES: Final[dict[str, tuple[str, ...]]] = {
         "against the motion and damping of impacts are left out",
     ),
 }
-"""Effects that each analysis leaves out, in words."""
 
 
 def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -> Problem:

@@ -26,31 +26,20 @@ from tribodyn.mechanism.assembly.passage import closes, lead, placed
 from tribodyn.mechanism.assembly.positions import DrivePath
 from tribodyn.mechanism.model.drives_and_loads import DriveKeys
 
+#: Displacement along a freedom by which outputs are tried, in units of the size or radians.
 _STEP: Final = 1.0e-4
-"""Displacement along a freedom by which outputs are tried, in units of the size or radians."""
-_AWAY: Final = 0.02
-"""Displacement to a place beside a dead centre, in the same units."""
-_PLACES: Final = 5
-"""Number of times at which they are tried."""
+_AWAY: Final = 0.02  #: Displacement to a place beside a dead centre, in the same units.
+_PLACES: Final = 5  #: Number of times at which they are tried.
 
 
 @dataclass(frozen=True)
 class IdealOutputs:
-    """Outputs of the ideal counterpart.
+    """Outputs of the ideal counterpart."""
 
-    Attributes
-    ----------
-    components
-        Of each output, shape (n_t, m) each; NaN where drives do not determine it.
-    notes
-        Why all have no ideal value, or from when on, in words.
-    free
-        Whether an output depends on a freedom that drives leave.
-    """
-
+    #: Of each output, shape (n_t, m) each; NaN where drives do not determine it.
     components: tuple[FloatArray, ...]
-    notes: tuple[str, ...]
-    free: tuple[bool, ...]
+    notes: tuple[str, ...]  #: Why all have no ideal value, or from when on, in words.
+    free: tuple[bool, ...]  #: Whether an output depends on a freedom that drives leave.
 
 
 def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath) -> IdealOutputs:

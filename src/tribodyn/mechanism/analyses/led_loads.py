@@ -22,10 +22,8 @@ from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.positions import held, undamped
 from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
 
-SLIP: Final = "slip_velocity"
-"""Name of the parameter of laws at which their friction is developed."""
-_FLAT: Final = 1.0e-9
-"""Stiffness over the largest one that counts as zero."""
+SLIP: Final = "slip_velocity"  #: Name of the parameter of laws at which their friction is developed.
+_FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
 
 
 def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:

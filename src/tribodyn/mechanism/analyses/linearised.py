@@ -25,41 +25,26 @@ from tribodyn.mechanism.assembly.mechanism_problem import length_scale, mechanis
 from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.positions import held
 
-_ELASTIC: Final = 1.0e30
-"""Speed at which contact began that leaves no damping of impacts [m/s]."""
+_ELASTIC: Final = 1.0e30  #: Speed at which contact began that leaves no damping of impacts [m/s].
 _MOST_STEPS: Final = 200
+#: Largest step, turns [rad] and ways in units of the length that positions are resolved against.
 _LONGEST: Final = 0.2
-"""Largest step, turns [rad] and ways in units of the length that positions are resolved against."""
-_STILL: Final = 1.0e-8
-"""Step in the same units that counts as zero."""
+_STILL: Final = 1.0e-8  #: Step in the same units that counts as zero.
 _TINY: Final = 1.0e-300
-_FLAT: Final = 1.0e-9
-"""Stiffness over the largest one that counts as zero."""
-_UNLOADED: Final = 1.0e-6
-"""Force along a motion without stiffness, over all forces, that counts as zero."""
+_FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
+_UNLOADED: Final = 1.0e-6  #: Force along a motion without stiffness, over all forces, that counts as zero.
 
 
 @dataclass(frozen=True)
 class LinearEquations:
-    """The equations at one position.
+    """The equations at one position."""
 
-    Attributes
-    ----------
-    motions
-        B: displacements in global axes and turns in those of each body, shape (6 n, f).
-    rest
-        r, shape (f,).
-    damping, stiffness
-        C and K, shape (f, f) each.
-    load
-        Size of all forces but those of constraints, over the roots of masses.
-    """
-
-    motions: FloatArray
-    rest: FloatArray
+    motions: FloatArray  #: B: displacements in global axes and turns in those of each body, shape (6 n, f).
+    rest: FloatArray  #: r, shape (f,).
+    #: C and K, shape (f, f) each.
     damping: FloatArray
     stiffness: FloatArray
-    load: float
+    load: float  #: Size of all forces but those of constraints, over the roots of masses.
 
 
 class Linearised:

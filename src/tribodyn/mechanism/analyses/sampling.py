@@ -23,10 +23,8 @@ from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.controller import Controller
 from tribodyn.mechanisms.mechanism_protocol import plain
 
-_DUE: Final = 1.0e-6
-"""Share of a sampling time within which it is now."""
-_SAME: Final = 1.0e-12
-"""Share of a run within which two instants are one."""
+_DUE: Final = 1.0e-6  #: Share of a sampling time within which it is now.
+_SAME: Final = 1.0e-12  #: Share of a run within which two instants are one.
 
 
 def sampled(problem: Problem, model: Model, outputs: tuple[Output, ...]) -> Problem:

@@ -30,12 +30,10 @@ from tribodyn.mechanism.assembly.positions import DrivePath, undamped, walked
 from tribodyn.mechanism.assembly.start import settled
 from tribodyn.mechanisms.self_checks import TOO_CLOSE
 
-_SETTLED: Final = 1.0e-5
-"""Change of gaps over the roughness that counts as zero."""
-_CREEP: Final = 1.0e-7
-"""Slip velocity at which friction is developed, over the fastest speed of a body."""
+_SETTLED: Final = 1.0e-5  #: Change of gaps over the roughness that counts as zero.
+_CREEP: Final = 1.0e-7  #: Slip velocity at which friction is developed, over the fastest speed of a body.
+#: Change of gaps over the roughness that turns the directions of possible motions by less than rounding.
 _NEAR: Final = 0.1
-"""Change of gaps over the roughness that turns the directions of possible motions by less than rounding."""
 
 
 def require_equilibria(assembly: Assembly) -> None:

@@ -33,33 +33,21 @@ from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_global_axes, motion_of
 from tribodyn.mechanism.assembly.output_values import Output
 
+#: Parts of the error of a joint; the last one is that of the pieces of elastic bodies.
 CAUSES: Final = ("clearance", "tilt", "friction", "bending")
-"""Parts of the error of a joint; the last one is that of the pieces of elastic bodies."""
-_NOTHING: Final = 1.0e-9
-"""Force over the largest one that counts as zero."""
+_NOTHING: Final = 1.0e-9  #: Force over the largest one that counts as zero.
 
 
 @dataclass(frozen=True)
 class JointReaction:
-    """Wrench of an ideal joint on its shaft over time, in axes of the joint.
+    """Wrench of an ideal joint on its shaft over time, in axes of the joint."""
 
-    Attributes
-    ----------
-    clearance
-        Of the real joint.
-    friction
-        Its coefficient of friction.
-    force, moment
-        [N] and [N m], shape (n_t, 3).
-    spin
-        Angular velocity of the shaft about the axis [rad/s], shape (n_t,).
-    """
-
-    clearance: Clearance
-    friction: float
+    clearance: Clearance  #: Of the real joint.
+    friction: float  #: Its coefficient of friction.
+    #: [N] and [N m], shape (n_t, 3).
     force: FloatArray
     moment: FloatArray
-    spin: FloatArray
+    spin: FloatArray  #: Angular velocity of the shaft about the axis [rad/s], shape (n_t,).
 
     def displacements(self) -> FloatArray:
         """Return displacement and rotation of the shaft by cause, shape (n_t, 4, 6), see ``CAUSES``."""

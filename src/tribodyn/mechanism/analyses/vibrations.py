@@ -27,14 +27,10 @@ from tribodyn.mechanism.assembly.positions import DrivePath, held, walked
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import Observed
 
-_FREE: Final = 1.0e-6
-"""Eigenvalue over the largest undamped frequency that is zero."""
-_UNDAMPED: Final = 1.0e-9
-"""Damping ratio that is zero."""
-_REAL: Final = 1.0e-9
-"""Imaginary part of an eigenvalue over its size that is zero."""
-_MOST: Final = 0.5
-"""Share of the kinetic energy along the axis of a joint from which a motion slides in it."""
+_FREE: Final = 1.0e-6  #: Eigenvalue over the largest undamped frequency that is zero.
+_UNDAMPED: Final = 1.0e-9  #: Damping ratio that is zero.
+_REAL: Final = 1.0e-9  #: Imaginary part of an eigenvalue over its size that is zero.
+_MOST: Final = 0.5  #: Share of the kinetic energy along the axis of a joint from which a motion slides in it.
 
 
 def without_friction(case: MechanismCase) -> MechanismCase:
@@ -121,18 +117,11 @@ class _Resting(Equilibria):
 
 @dataclass(frozen=True)
 class Modes:
-    """Modes at one position, those of the lowest natural frequency first.
+    """Modes at one position, those of the lowest natural frequency first."""
 
-    Attributes
-    ----------
-    eigenvalue
-        s [1/s]: of each complex pair the one above the real axis, shape (m,).
-    shape
-        Of unit length over the displacements x, shape (f, m).
-    """
-
+    #: s [1/s]: of each complex pair the one above the real axis, shape (m,).
     eigenvalue: NDArray[np.complex128]
-    shape: FloatArray
+    shape: FloatArray  #: Of unit length over the displacements x, shape (f, m).
 
 
 def modes_of(linear: LinearEquations) -> Modes:
@@ -164,18 +153,12 @@ def _real(vectors: NDArray[np.complex128]) -> FloatArray:
 
 @dataclass(frozen=True)
 class Vibrations:
-    """Variables of a result on vibrations.
+    """Variables of a result on vibrations."""
 
-    Attributes
-    ----------
-    columns, coordinates
-        By their names in the result.
-    warnings, notes
-        Which positions are unstable, and what nothing holds.
-    """
-
+    #: By their names in the result.
     columns: Mapping[str, FloatArray] = field(default_factory=dict)
     coordinates: Mapping[str, ArrayLike] = field(default_factory=dict)
+    #: Which positions are unstable, and what nothing holds.
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
 

@@ -23,68 +23,33 @@ from tribodyn.mechanism.assembly.start_speeds import speeds_of, start
 
 @dataclass(frozen=True)
 class Redundancy:
-    """Constraints of a loop that say the same more than once.
+    """Constraints of a loop that say the same more than once."""
 
-    Attributes
-    ----------
-    number
-        How many of them.
-    joints
-        Names of the joints that share them.
-    """
-
-    number: int
-    joints: tuple[str, ...]
+    number: int  #: How many of them.
+    joints: tuple[str, ...]  #: Names of the joints that share them.
 
 
 @dataclass(frozen=True)
 class Assembly:
-    """A mechanism put together.
+    """A mechanism put together."""
 
-    Attributes
-    ----------
-    model
-        As drawn.
-    findings
-        What forbids a run; empty for a sound mechanism.
-    freedoms
-        Degrees of freedom that drives leave.
-    redundancy
-        Constraints beyond the independent ones; None without any.
-    inexact
-        Warnings of bodies whose masses differ so much that reactions lose digits.
-    moved
-        How far assembly has moved the mass centre of each body [m], shape (n,).
-    state
-        State at the start, shape (13 n,).
-    data
-        What the kernels read.
-    ideal_rank
-        Number of independent constraints if all joints were ideal; in a mechanism with loops.
-    ideal_freedoms
-        Degrees of freedom that drives would leave if all joints were ideal; None where those do not fit.
-    findings_if_ideal
-        What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
-        when it is led through its cycle.
-    ideal_data
-        What kernels read of the mechanism with ideal joints in the place of clearances; None without any.
-    strain
-        Which clearances take what ideal joints do not allow, in words; empty for none.
-    """
-
-    model: Model
-    findings: tuple[ModelError, ...]
-    freedoms: int
-    redundancy: Redundancy | None
-    inexact: tuple[str, ...]
-    moved: FloatArray
-    state: FloatArray
-    data: MechanismData
-    ideal_rank: int
+    model: Model  #: As drawn.
+    findings: tuple[ModelError, ...]  #: What forbids a run; empty for a sound mechanism.
+    freedoms: int  #: Degrees of freedom that drives leave.
+    redundancy: Redundancy | None  #: Constraints beyond the independent ones; None without any.
+    inexact: tuple[str, ...]  #: Warnings of bodies whose masses differ so much that reactions lose digits.
+    moved: FloatArray  #: How far assembly has moved the mass centre of each body [m], shape (n,).
+    state: FloatArray  #: State at the start, shape (13 n,).
+    data: MechanismData  #: What the kernels read.
+    ideal_rank: int  #: Number of independent constraints if all joints were ideal; in a mechanism with loops.
+    #: Degrees of freedom that drives would leave if all joints were ideal; None where those do not fit.
     ideal_freedoms: int | None
+    #: What the mechanism would be refused for if all its joints were ideal; whether clearances take it shows
+    #: when it is led through its cycle.
     findings_if_ideal: tuple[ModelError, ...] = ()
+    #: What kernels read of the mechanism with ideal joints in the place of clearances; None without any.
     ideal_data: MechanismData | None = None
-    strain: str = ""
+    strain: str = ""  #: Which clearances take what ideal joints do not allow, in words; empty for none.
 
     @property
     def warnings(self) -> tuple[str, ...]:

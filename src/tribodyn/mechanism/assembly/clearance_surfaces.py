@@ -26,8 +26,7 @@ from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.bushing import Bearing
 
 _Sized: TypeAlias = Cylinder | Sphere | Ball | Guide | Slot
-_COARSE: Final = (12, 2)
-"""A grid, whose surfaces are as large as those of any."""
+_COARSE: Final = (12, 2)  #: A grid, whose surfaces are as large as those of any.
 NOT_WORN: Final[Mapping[str, float]] = {}
 
 
@@ -238,8 +237,7 @@ def _openings(
     return radial, axial
 
 
-_PARALLEL: Final = 1e-3
-"""Sine of an angle below which two directions are taken for one."""
+_PARALLEL: Final = 1e-3  #: Sine of an angle below which two directions are taken for one.
 
 
 def axes_of(case: MechanismCase, joint: JointKeys) -> FloatArray:

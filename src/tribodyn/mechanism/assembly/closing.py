@@ -27,28 +27,23 @@ from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.model.drives_and_loads import GIVEN
 
-CLOSED: Final = 1.0e-12
-"""Residual, in units of the mechanism's size or in radians, of a joint that closes."""
-CLOSES: Final = 1.0e-9
-"""The same, of joints of a mechanism on its way."""
+CLOSED: Final = 1.0e-12  #: Residual, in units of the mechanism's size or in radians, of a joint that closes.
+CLOSES: Final = 1.0e-9  #: The same, of joints of a mechanism on its way.
 _MOST_STEPS: Final = 60
+#: Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept.
 _LONGEST: Final = 0.2
-"""Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept."""
 _WRONG: Final = 0.1
+#: Bounds of the relative error of reactions from which on a mechanism is refused, and a warning is given.
 _INEXACT: Final = 1.0e-6
-"""Bounds of the relative error of reactions from which on a mechanism is refused, and a warning is given."""
+#: Factor by which masses reduce the least singular value squared before an error is attributed to them.
 _BY_MASS: Final = 1.0e-2
-"""Factor by which masses reduce the least singular value squared before an error is attributed to them."""
+#: Ratio of masses, and square root of that of moments of inertia, up to which no body is called light.
 _ALIKE: Final = 100.0
-"""Ratio of masses, and square root of that of moments of inertia, up to which no body is called light."""
 _TINY: Final = 1.0e-300
-_TAKES_PART: Final = 0.1
-"""Share of a row in a combination of unit length from which on it counts."""
-_NEAR: Final = 0.03
-"""Distance of positions near by, in the same units."""
+_TAKES_PART: Final = 0.1  #: Share of a row in a combination of unit length from which on it counts.
+_NEAR: Final = 0.03  #: Distance of positions near by, in the same units.
 
-Position: TypeAlias = tuple[Any, Any]
-"""Records of the bodies, and marks of the angles of all couplings."""
+Position: TypeAlias = tuple[Any, Any]  #: Records of the bodies, and marks of the angles of all couplings.
 
 
 class System:

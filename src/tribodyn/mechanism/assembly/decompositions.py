@@ -13,34 +13,22 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.kernels import dense
 
-_BODY: Final = 6
-"""Columns of a body."""
-_NOTHING: Final = 1.0e-13
-"""Length of what is left of a row or column that counts as nothing."""
+_BODY: Final = 6  #: Columns of a body.
+_NOTHING: Final = 1.0e-13  #: Length of what is left of a row or column that counts as nothing.
+#: The same of all that was left out, and what rows miss by in motions that they leave.
 _EXACT: Final = 1.0e-9
-"""The same of all that was left out, and what rows miss by in motions that they leave."""
 
 
 @dataclass(frozen=True)
 class _Front:
-    """Factored rows that act on one body.
+    """Factored rows that act on one body."""
 
-    Attributes
-    ----------
-    rows
-        Their numbers, shape (m,); the first k of them hold rows of R.
-    normals
-        Of the reflections, shape (k, m).
-    columns, others
-        Columns of these rows of R: those of the triangle, shape (k,), and all others, shape (n,).
-    triangle, beside
-        Their entries, shapes (k, k) and (k, n).
-    """
-
-    rows: IntArray
-    normals: FloatArray
+    rows: IntArray  #: Their numbers, shape (m,); the first k of them hold rows of R.
+    normals: FloatArray  #: Of the reflections, shape (k, m).
+    #: Columns of these rows of R: those of the triangle, shape (k,), and all others, shape (n,).
     columns: IntArray
     others: IntArray
+    #: Their entries, shapes (k, k) and (k, n).
     triangle: FloatArray
     beside: FloatArray
 
@@ -202,14 +190,12 @@ def _columns(bodies: list[int], size: int) -> IntArray:
     return found[found < size]
 
 
+#: Number of rows or unknowns from which on factors replace singular values where they are accurate.
 LARGE: Final = 60
-"""Number of rows or unknowns from which on factors replace singular values where they are accurate."""
-_REGULAR: Final = 1.0e8
-"""Largest |A| |x| / |b| of a solution of A x = b that elimination finds accurately."""
+_REGULAR: Final = 1.0e8  #: Largest |A| |x| / |b| of a solution of A x = b that elimination finds accurately.
+#: Singular value of rows over ways and turns, relative to the largest, below which some are dependent.
 DEPENDENT: Final = 1.0e-6
-"""Singular value of rows over ways and turns, relative to the largest, below which some are dependent."""
-_KEPT: Final = 4
-"""Decompositions that are kept: those of two matrices at this place and at the last one."""
+_KEPT: Final = 4  #: Decompositions that are kept: those of two matrices at this place and at the last one.
 
 
 def svd(matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

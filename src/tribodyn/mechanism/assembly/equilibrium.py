@@ -47,25 +47,18 @@ from tribodyn.mechanism.assembly.shaft_motions import (
 )
 from tribodyn.mechanism.assembly.start_speeds import Speeds, start
 
-_MOVING: Final = 1.0e-6
-"""Slip over the one at which traction is developed that is rest."""
-_SLIDING: Final = 100.0
-"""The same with which a motion that is about to begin is looked at."""
+_MOVING: Final = 1.0e-6  #: Slip over the one at which traction is developed that is rest.
+_SLIDING: Final = 100.0  #: The same with which a motion that is about to begin is looked at.
+#: Acceleration over the one that loads would cause without joints that counts as zero.
 _ROUNDING: Final = 1.0e-10
-"""Acceleration over the one that loads would cause without joints that counts as zero."""
-_LOST: Final = 3.0
-"""Ratio of a shaft's largest motion to the gap of its joint in a search for a support."""
+_LOST: Final = 3.0  #: Ratio of a shaft's largest motion to the gap of its joint in a search for a support.
+#: The same of a shaft that touches: tilted within a short bore, its end faces are further away.
 _TILTED: Final = 30.0
-"""The same of a shaft that touches: tilted within a short bore, its end faces are further away."""
-_TOUCHING: Final = 5.0
-"""Gap over the roughness at which surfaces touch."""
+_TOUCHING: Final = 5.0  #: Gap over the roughness at which surfaces touch.
 _TINY: Final = 1.0e-300
-_ADRIFT: Final = 1.0e-3
-"""Load along a freedom that nothing holds, over all loads, that counts as zero."""
-_TRIED: Final = 1.0e-6
-"""Step along freedoms, in the same units, by which their stiffness is tried."""
-_TRIED_GAP: Final = 1.0e-3
-"""The same along all other motions, as a change of gaps over the roughness."""
+_ADRIFT: Final = 1.0e-3  #: Load along a freedom that nothing holds, over all loads, that counts as zero.
+_TRIED: Final = 1.0e-6  #: Step along freedoms, in the same units, by which their stiffness is tried.
+_TRIED_GAP: Final = 1.0e-3  #: The same along all other motions, as a change of gaps over the roughness.
 
 
 class JointLoads:

@@ -23,17 +23,17 @@ from tribodyn.mechanisms.shaft_loads import WAVE_STEPS
 from tribodyn.mechanisms.wear_state import Carried
 
 FUNCTIONS: Final = CompiledFunctions(**functions.FUNCTIONS)
+#: States of a body; the angular velocity is in its own axes.
 STATES: Final = (
     *("x", "y", "z"),
     *("p_0", "p_1", "p_2", "p_3"),
     *("v_x", "v_y", "v_z"),
     *("omega_1", "omega_2", "omega_3"),
 )
-"""States of a body; the angular velocity is in its own axes."""
 
 Tolerances = tuple[float, float, float, float]
+#: Sliding speed over the slip velocity up to which friction at rest stretches: 98 % of its limit.
 DEVELOPED: Final = 5.0
-"""Sliding speed over the slip velocity up to which friction at rest stretches: 98 % of its limit."""
 
 
 def mechanism_problem(

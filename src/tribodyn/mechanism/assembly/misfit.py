@@ -18,16 +18,13 @@ from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.shapes import SHAPES
 
+#: Share of its clearance from which on a joint surely seizes: shares add up squared here, and of two poses
+#: the one in which the largest is least may be better by about as much.
 MOST: Final = 1.5
-"""Share of its clearance from which on a joint surely seizes: shares add up squared here, and of two poses
-the one in which the largest is least may be better by about as much."""
-_HARD: Final = 1.0e-4
-"""Weight of what allows nothing, as a part of the least that a joint allows."""
-_NOTHING: Final = 0.01
-"""Share that is not worth a word."""
+_HARD: Final = 1.0e-4  #: Weight of what allows nothing, as a part of the least that a joint allows.
+_NOTHING: Final = 0.01  #: Share that is not worth a word.
 _MOST_STEPS: Final = 60
-_SMALL: Final = 1.0e-7
-"""Change of a step, in units of the size or in radians, that ends the iteration."""
+_SMALL: Final = 1.0e-7  #: Change of a step, in units of the size or in radians, that ends the iteration.
 
 
 class Misfit:

@@ -8,8 +8,7 @@ from tribodyn.cases.case import dot, unit
 from tribodyn.cases.fields import Vector
 from tribodyn.mechanism.model.parts import JointKeys
 
-_ALIKE: Final = 1.0e-6
-"""Sine of the angle up to which two axes count as parallel, or as perpendicular."""
+_ALIKE: Final = 1.0e-6  #: Sine of the angle up to which two axes count as parallel, or as perpendicular.
 _PARALLEL: Final = "revolute"
 _ACROSS: Final = "prismatic"
 

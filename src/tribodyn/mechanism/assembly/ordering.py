@@ -24,21 +24,11 @@ from tribodyn.kernels.mechanism.newton import N_BODY, N_COMPLIANCE, N_PAIR, N_RO
 
 @dataclass(frozen=True)
 class Rows:
-    """Constraint rows of a joint, or the equation of an element, as a node.
+    """Constraint rows of a joint, or the equation of an element, as a node."""
 
-    Attributes
-    ----------
-    node
-        Its number.
-    bodies
-        Its bodies, without the ground.
-    grounded
-        Whether the ground is one of its bodies.
-    """
-
-    node: int
-    bodies: tuple[int, ...]
-    grounded: bool
+    node: int  #: Its number.
+    bodies: tuple[int, ...]  #: Its bodies, without the ground.
+    grounded: bool  #: Whether the ground is one of its bodies.
 
 
 class _Anchors:
@@ -155,8 +145,7 @@ def _array(operations: Sequence[tuple[int, ...]], width: int) -> IntArray:
     return np.array(operations, dtype=np.int64).reshape(-1, width)
 
 
-_KEPT: Final = 8
-"""Structures of mechanisms whose patterns are kept."""
+_KEPT: Final = 8  #: Structures of mechanisms whose patterns are kept.
 
 
 def n_blocks(pattern: Pattern) -> int:

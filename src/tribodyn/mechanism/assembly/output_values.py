@@ -36,53 +36,30 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Motion:
-    """Motion of all bodies at some times, in global axes.
+    """Motion of all bodies at some times, in global axes."""
 
-    Attributes
-    ----------
-    position
-        Of the mass centres [m], shape (n_t, n_bodies, 3).
-    orientation
-        Quaternions, scalar first, that turn the bodies from the drawing, shape (n_t, n_bodies, 4).
-    velocity
-        Of the mass centres [m/s], shape (n_t, n_bodies, 3).
-    angular_velocity
-        In global axes [rad/s], shape (n_t, n_bodies, 3).
-    """
-
-    position: FloatArray
+    position: FloatArray  #: Of the mass centres [m], shape (n_t, n_bodies, 3).
+    #: Quaternions, scalar first, that turn the bodies from the drawing, shape (n_t, n_bodies, 4).
     orientation: FloatArray
-    velocity: FloatArray
-    angular_velocity: FloatArray
+    velocity: FloatArray  #: Of the mass centres [m/s], shape (n_t, n_bodies, 3).
+    angular_velocity: FloatArray  #: In global axes [rad/s], shape (n_t, n_bodies, 3).
 
 
+#: Quantities that are rates, with what they are rates of.
 _RATE_OF: Final = {"velocity": "position", "angular_velocity": "angle"}
-"""Quantities that are rates, with what they are rates of."""
-MOTION: Final = tuple(field.name for field in fields(Motion))
-"""Motion from which outputs are computed."""
+MOTION: Final = tuple(field.name for field in fields(Motion))  #: Motion from which outputs are computed.
 
 
 @dataclass(frozen=True)
 class Output:
-    """An output of a mechanism whose bodies are counted.
+    """An output of a mechanism whose bodies are counted."""
 
-    Attributes
-    ----------
-    name
-        Its name.
-    keys
-        Its table.
-    body, reference
-        Numbers of the two bodies; −1 for the ground.
-    centres
-        Their mass centres as drawn [m], shape (2, 3); zeros for the ground.
-    """
-
-    name: str
-    keys: OutputKeys
+    name: str  #: Its name.
+    keys: OutputKeys  #: Its table.
+    #: Numbers of the two bodies; −1 for the ground.
     body: int
     reference: int
-    centres: FloatArray
+    centres: FloatArray  #: Their mass centres as drawn [m], shape (2, 3); zeros for the ground.
 
     @property
     def is_rate(self) -> bool:

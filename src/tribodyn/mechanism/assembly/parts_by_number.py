@@ -22,37 +22,19 @@ from tribodyn.mechanism.model.parts import JointKeys
 
 @dataclass(frozen=True)
 class ModelError:
-    """Something that forbids a run.
+    """Something that forbids a run."""
 
-    Attributes
-    ----------
-    key
-        What to change, as in a case file: ``joints.wrist``.
-    text
-        In words.
-    """
-
-    key: str
-    text: str
+    key: str  #: What to change, as in a case file: ``joints.wrist``.
+    text: str  #: In words.
 
 
 @dataclass(frozen=True)
 class Element:
-    """A gear pair or another element: a constraint equation or a force law over coordinates of its legs.
+    """A gear pair or another element: a constraint equation or a force law over coordinates of its legs."""
 
-    Attributes
-    ----------
-    name
-        Its name, unique among all elements.
-    keys
-        Its table; its class is a member of ``elements.ELEMENTS``.
-    equations
-        Its equations, one for most.
-    """
-
-    name: str
-    keys: ElementKeys
-    equations: tuple[Equation, ...]
+    name: str  #: Its name, unique among all elements.
+    keys: ElementKeys  #: Its table; its class is a member of ``elements.ELEMENTS``.
+    equations: tuple[Equation, ...]  #: Its equations, one for most.
 
     @property
     def legs(self) -> tuple[Leg, ...]:
@@ -62,20 +44,12 @@ class Element:
 
 @dataclass(frozen=True)
 class Model:
-    """The keys of a mechanism, and which of its joints have clearance.
+    """The keys of a mechanism, and which of its joints have clearance."""
 
-    Attributes
-    ----------
-    case
-        Bodies, joints and all that acts on them, in SI units.
-    clearances
-        Of the joints that are not ideal, by their names.
-    held
-        Kinds of the ideal joints that take the place of joints that yield, by their names.
-    """
-
-    case: MechanismCase
+    case: MechanismCase  #: Bodies, joints and all that acts on them, in SI units.
+    #: Of the joints that are not ideal, by their names.
     clearances: Mapping[str, Clearance] = field(default_factory=dict)
+    #: Kinds of the ideal joints that take the place of joints that yield, by their names.
     held: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property

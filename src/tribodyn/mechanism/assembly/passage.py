@@ -20,43 +20,28 @@ from tribodyn.mechanism.assembly.closing import CLOSES, System
 from tribodyn.mechanism.assembly.misfit import Misfit, described
 from tribodyn.mechanism.assembly.parts_by_number import ModelError
 
-_TURN: Final = 0.1
-"""Largest change of a drive in one step, in radians or units of the size."""
-_FEWEST: Final = 50
-"""Least number of steps of a run."""
+_TURN: Final = 0.1  #: Largest change of a drive in one step, in radians or units of the size.
+_FEWEST: Final = 50  #: Least number of steps of a run.
+#: Largest number of steps, some eight turns; what comes later has come before, or a run finds it.
 _MOST: Final = 500
-"""Largest number of steps, some eight turns; what comes later has come before, or a run finds it."""
-_PARTS: Final = 8
-"""Parts of a step that bodies are led through where they cannot make it at once."""
-_CORRECTIONS: Final = 20
-"""Steps of Newton's method in which bodies that are near must close."""
-_WAYS: Final = 4
-"""Largest number of branches that are tried where freedoms are left."""
+_PARTS: Final = 8  #: Parts of a step that bodies are led through where they cannot make it at once.
+_CORRECTIONS: Final = 20  #: Steps of Newton's method in which bodies that are near must close.
+_WAYS: Final = 4  #: Largest number of branches that are tried where freedoms are left.
 
+#: Digests of the last mechanisms that could follow their drives, with their start and duration.
 _passed: Final[Remembered[None]] = Remembered(32)
-"""Digests of the last mechanisms that could follow their drives, with their start and duration."""
 
+#: Moves the bodies to where the joints close at the system's time; returns whether they do.
 Close = Callable[[], bool]
-"""Moves the bodies to where the joints close at the system's time; returns whether they do."""
 
 
 @dataclass(frozen=True)
 class Passage:
-    """Result of following the drives through a cycle.
+    """Result of following the drives through a cycle."""
 
-    Attributes
-    ----------
-    finding
-        What forbids a run, if anything does.
-    time
-        When [s].
-    warning
-        Which clearances must take a misfit of the ideal joints; empty for none.
-    """
-
-    finding: ModelError | None = None
-    time: float = 0.0
-    warning: str = ""
+    finding: ModelError | None = None  #: What forbids a run, if anything does.
+    time: float = 0.0  #: When [s].
+    warning: str = ""  #: Which clearances must take a misfit of the ideal joints; empty for none.
 
 
 def drive_through(assembly: Assembly, duration: float) -> Passage:

@@ -23,26 +23,16 @@ from tribodyn.kernels.mechanism.data import INTACT, NONE, MechanismData
 from tribodyn.mechanisms.signal_pieces import backward, constant
 
 BROKEN: Final = "a joint has come apart"
-_SAME: Final = 1.0e-12
-"""Difference of times over the later one that is rounding."""
-_NEVER_ENTERED: Final = 1.0e30
-"""Entry velocity against which any speed of approach vanishes [m/s]."""
+_SAME: Final = 1.0e-12  #: Difference of times over the later one that is rounding.
+_NEVER_ENTERED: Final = 1.0e30  #: Entry velocity against which any speed of approach vanishes [m/s].
 
 
 @dataclass(frozen=True)
 class DrivePath:
-    """Times of positions, and where the drives are then.
+    """Times of positions, and where the drives are then."""
 
-    Attributes
-    ----------
-    times
-        Rising, from 0 [s], shape (n_t,).
-    turn
-        When the drives turn back [s]; infinite where they do not.
-    """
-
-    times: FloatArray
-    turn: float = math.inf
+    times: FloatArray  #: Rising, from 0 [s], shape (n_t,).
+    turn: float = math.inf  #: When the drives turn back [s]; infinite where they do not.
 
     @property
     def forward(self) -> FloatArray:

@@ -309,6 +309,7 @@ def _fill_law(record: Any, model: Model, law: ForceLaw, signals: SignalList, fir
 
 
 _KINDS: Final = {"ground": kinds.LOAD_GROUND, "body": kinds.LOAD_BODY, "motion": kinds.LOAD_MOTION}
+#: Numbers of what loads follow.
 _FOLLOWED: Final = {
     "times": kinds.TIME,
     "angles": kinds.FOLLOWED,
@@ -316,9 +317,7 @@ _FOLLOWED: Final = {
     "speeds": kinds.FOLLOWED_SPEED,
     "velocities": kinds.FOLLOWED_SPEED,
 }
-"""Numbers of what loads follow."""
-_SIZE_AT: Final = {"force": 0, "moment": 3}
-"""Component that holds the size of a load against the motion."""
+_SIZE_AT: Final = {"force": 0, "moment": 3}  #: Component that holds the size of a load against the motion.
 
 
 def terms_of(case: MechanismCase, load: LoadKeys) -> Iterator[Term]:

@@ -17,8 +17,7 @@ from tribodyn.kernels import dense
 from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import LINE, NO_TILT
 
-_ROOM: Final = 2**16
-"""Entries of the stiffness of couplings that are taken together."""
+_ROOM: Final = 2**16  #: Entries of the stiffness of couplings that are taken together.
 
 
 def products(first: FloatArray, second: FloatArray) -> FloatArray:
@@ -118,37 +117,18 @@ _TINY: Final = 1.0e-300
 
 @dataclass(frozen=True)
 class JointNodes:
-    """Nodes of a joint with clearance.
+    """Nodes of a joint with clearance."""
 
-    Attributes
-    ----------
-    coupling
-        Number of the joint.
-    gradient
-        −∂h/∂(d, φ), shape (n, 6).
-    position
-        x_k [m], shape (n, 3).
-    drawn, roughness
-        Gaps as drawn, and σ [m], shape (n,).
-    slides
-        1 where the shaft slides past the node, shape (n,).
-    deepest
-        Gap at which the contact law ends [m], shape (n,).
-    lean
-        Radius ρ of the second-order term of the tilt [m], shape (n,).
-    slip
-        u_s [m/s].
-    """
-
-    coupling: int
-    gradient: FloatArray
-    position: FloatArray
+    coupling: int  #: Number of the joint.
+    gradient: FloatArray  #: −∂h/∂(d, φ), shape (n, 6).
+    position: FloatArray  #: x_k [m], shape (n, 3).
+    #: Gaps as drawn, and σ [m], shape (n,).
     drawn: FloatArray
     roughness: FloatArray
-    slides: FloatArray
-    deepest: FloatArray
-    lean: FloatArray
-    slip: float
+    slides: FloatArray  #: 1 where the shaft slides past the node, shape (n,).
+    deepest: FloatArray  #: Gap at which the contact law ends [m], shape (n,).
+    lean: FloatArray  #: Radius ρ of the second-order term of the tilt [m], shape (n,).
+    slip: float  #: u_s [m/s].
 
     @cached_property
     def root(self) -> FloatArray:

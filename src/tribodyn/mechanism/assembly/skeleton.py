@@ -17,12 +17,11 @@ from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.results.dataset import MODEL
 
+#: Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3).
 Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
-"""Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3)."""
 
 MM: Final = 1e3
-_FLAT: Final = 0.2
-"""A mechanism thinner than this share of its size is looked at across its plane."""
+_FLAT: Final = 0.2  #: A mechanism thinner than this share of its size is looked at across its plane.
 
 
 def case_of(dataset: xr.Dataset) -> MechanismCase | None:
@@ -41,64 +40,36 @@ def _case_of(text: str) -> MechanismCase | None:
     return case if isinstance(case, MechanismCase) else None
 
 
-_BOX: Final = 0.06
-"""Half the length of the box that a slider is drawn as, over the extent of all joints."""
+_BOX: Final = 0.06  #: Half the length of the box that a slider is drawn as, over the extent of all joints.
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A joint as it is drawn.
+    """A joint as it is drawn."""
 
-    Attributes
-    ----------
-    name
-        Its name.
-    body
-        Number of the body that carries it; −1 for the ground.
-    point, axis
-        Place [m] and direction in the drawing; no direction for a ball.
-    real
-        Whether it has clearance.
-    grounded
-        Whether one of its bodies is the ground.
-    """
-
-    name: str
-    body: int
+    name: str  #: Its name.
+    body: int  #: Number of the body that carries it; −1 for the ground.
+    #: Place [m] and direction in the drawing; no direction for a ball.
     point: FloatArray
     axis: FloatArray | None
-    real: bool
-    grounded: bool
+    real: bool  #: Whether it has clearance.
+    grounded: bool  #: Whether one of its bodies is the ground.
 
 
 @dataclass(frozen=True)
 class Skeleton:
-    """Lines and points of a picture of a mechanism.
+    """Lines and points of a picture of a mechanism."""
 
-    Attributes
-    ----------
-    bodies
-        Names.
-    centres
-        Mass centres in the drawing [m], shape (n_bodies, 3).
-    points
-        Of each body the ends of its lines as modelled [m], shape (n, 3): joints, ends of rods, points of
-        loads and outputs; the mass centre where these are fewer than two.
-    marks
-        The joints.
-    outlines
-        Lines that show elements: numbers of the bodies that carry one, −1 for the ground, and the points of
-        each in the drawing [m], shape (n, 3).
-    springs
-        Lines along springs, likewise.
-    """
-
-    bodies: tuple[str, ...]
-    centres: FloatArray
+    bodies: tuple[str, ...]  #: Names.
+    centres: FloatArray  #: Mass centres in the drawing [m], shape (n_bodies, 3).
+    #: Of each body the ends of its lines as modelled [m], shape (n, 3): joints, ends of rods, points of loads
+    #: and outputs; the mass centre where these are fewer than two.
     points: tuple[FloatArray, ...]
-    marks: tuple[Mark, ...]
+    marks: tuple[Mark, ...]  #: The joints.
+    #: Lines that show elements: numbers of the bodies that carry one, −1 for the ground, and the points of
+    #: each in the drawing [m], shape (n, 3).
     outlines: tuple[Outline, ...] = ()
-    springs: tuple[Outline, ...] = ()
+    springs: tuple[Outline, ...] = ()  #: Lines along springs, likewise.
 
     def lines(self, body: int, position: FloatArray, orientation: FloatArray) -> FloatArray:
         """Return the ends of the lines of a body [mm], (..., n, 3); its mass centre is in metres."""

@@ -37,30 +37,20 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
 
 
 _MOST_LOOKS: Final = 20
+#: Looks after which the stiffness is found by looking: where a force vanishes, little else has any.
 _PLAIN_LOOKS: Final = 8
-"""Looks after which the stiffness is found by looking: where a force vanishes, little else has any."""
 _MOST_STEPS: Final = 100
-_SETTLED: Final = 1.0e-3
-"""Change of a gap, over the roughness, that counts as zero."""
-_BALANCED: Final = 1.0e-6
-"""Load over the largest one met on the way that counts as zero."""
-_LEAST: Final = 1.0
-"""Stiffness of springs where there is no contact yet [N/m]."""
-_FLOOR: Final = 1.0e-6
-"""The same over the largest stiffness."""
+_SETTLED: Final = 1.0e-3  #: Change of a gap, over the roughness, that counts as zero.
+_BALANCED: Final = 1.0e-6  #: Load over the largest one met on the way that counts as zero.
+_LEAST: Final = 1.0  #: Stiffness of springs where there is no contact yet [N/m].
+_FLOOR: Final = 1.0e-6  #: The same over the largest stiffness.
 _STIFFER: Final = 4.0
-_SOFTER: Final = 3.0
-"""Factors by which springs change."""
-_BACK: Final = 0.5
-"""Share of the load along a step that may have turned against it."""
-_NEARER: Final = 4.0
-"""Factor by which bodies that do not come to rest count as near from look to look."""
-_FAR: Final = 0.5
-"""Part of the largest gap of a joint that a step may not pass."""
-_SHORT: Final = 0.1
-"""Longest step along freedoms, turns [rad] and lengths over the size of the mechanism."""
-_FINE: Final = 1.0e-4
-"""Step along freedoms, in the same units, that counts as the roughness."""
+_SOFTER: Final = 3.0  #: Factors by which springs change.
+_BACK: Final = 0.5  #: Share of the load along a step that may have turned against it.
+_NEARER: Final = 4.0  #: Factor by which bodies that do not come to rest count as near from look to look.
+_FAR: Final = 0.5  #: Part of the largest gap of a joint that a step may not pass.
+_SHORT: Final = 0.1  #: Longest step along freedoms, turns [rad] and lengths over the size of the mechanism.
+_FINE: Final = 1.0e-4  #: Step along freedoms, in the same units, that counts as the roughness.
 
 
 def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -> FloatArray | None:

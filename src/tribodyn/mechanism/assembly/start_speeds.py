@@ -20,8 +20,8 @@ from tribodyn.mechanism.assembly.parts_by_number import Model, ModelError
 
 _TINY: Final = 1.0e-300
 
+#: Speeds of free coordinates as (joint, coordinate, value in [rad/s] or [m/s]).
 Speeds = tuple[tuple[int, str, float], ...]
-"""Speeds of free coordinates as (joint, coordinate, value in [rad/s] or [m/s])."""
 
 
 def speeds_of(model: Model) -> Speeds:
@@ -36,18 +36,10 @@ def speeds_of(model: Model) -> Speeds:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Linear equations for the velocities of all bodies.
+    """Linear equations for the velocities of all bodies."""
 
-    Attributes
-    ----------
-    matrix
-        Shape (m, 6 n).
-    target
-        Shape (m,).
-    """
-
-    matrix: FloatArray
-    target: FloatArray
+    matrix: FloatArray  #: Shape (m, 6 n).
+    target: FloatArray  #: Shape (m,).
 
     def missed_by(self, velocity: FloatArray) -> float:
         """Return the largest residual."""

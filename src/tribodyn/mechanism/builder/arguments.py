@@ -14,6 +14,7 @@ from tribodyn.cases.keys import ANY_NAME, VALUE, Key, groups_of, keys_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 
 CASE: Final = "case"
+#: Annotations by kind of key; other kinds are text.
 _TYPES: Final = {
     "quantity": "str",
     "number": "float | str",
@@ -23,26 +24,15 @@ _TYPES: Final = {
     "series": "Vector",
     "names": "Sequence[str]",
 }
-"""Annotations by kind of key; other kinds are text."""
 
 
 @dataclass(frozen=True)
 class Argument:
-    """A keyword argument of a method: a key, or a table of keys.
+    """A keyword argument of a method: a key, or a table of keys."""
 
-    Attributes
-    ----------
-    annotation
-        Its type.
-    text
-        Its meaning, what it may hold, and its default.
-    required
-        Whether it must be given.
-    """
-
-    annotation: str
-    text: str
-    required: bool
+    annotation: str  #: Its type.
+    text: str  #: Its meaning, what it may hold, and its default.
+    required: bool  #: Whether it must be given.
 
     def with_need(self, needed: bool) -> Argument:
         """Return the same, which must be given if ``needed``."""

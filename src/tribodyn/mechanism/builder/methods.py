@@ -24,61 +24,38 @@ from tribodyn.mechanism.model.drives_and_loads import DriveKeys, LoadKeys
 from tribodyn.mechanism.model.output_declarations import OutputKeys
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys
 
-Example = Mapping[str, Any]
-"""Tables of a case."""
+Example = Mapping[str, Any]  #: Tables of a case.
 
-OF_JOINT: Final = ("clearance", "film")
-"""Tables of a joint that have methods of their own."""
+OF_JOINT: Final = ("clearance", "film")  #: Tables of a joint that have methods of their own.
 _NAME: Final = ("name", "", "its name, which the case does not have yet")
 _ENDS: Final = (("first", "between", "a body, or ground"), ("second", "between", "another body, or ground"))
+#: Arguments that bodies and joints of elements may be given by, by key.
 _PLACES: Final = {
     "between": _ENDS,
     "joint": (("joint", "joint", "the joint that it acts in"),),
     "joints": (("first", "joints", "a joint"), ("second", "joints", "another joint")),
     "body": (("body", "body", "the body that it acts on"),),
 }
-"""Arguments that bodies and joints of elements may be given by, by key."""
 _THAT_JOINT: Final = (("joint", "", "a joint that the mechanism has"),)
 
 
 @dataclass(frozen=True)
 class BuilderMethod:
-    """A method of the builder.
-
-    Attributes
-    ----------
-    name
-        Its name.
-    does
-        First line of its docstring.
-    table
-        Table of a case that it adds to; a table of a joint stands after ``joints.``.
-    keys
-        Model of that table.
-    example
-        Tables of a case that is made with it.
-    arguments
-        Positional ones: name, key that it fills (none for the name of the table), meaning.
-    given
-        Keys that the method fills by itself.
-    needed
-        Keys that must be given beside those that always must.
-    without
-        Keys that have no meaning here.
-    """
+    """A method of the builder."""
 
     # One rule of all methods: after the name come bodies or joints, by position or by name; ``between``,
     # ``joint``, ``joints`` or ``body`` name them as a case file does.
 
-    name: str
-    does: str
-    table: str
-    keys: type[BaseModel]
-    example: Example
+    name: str  #: Its name.
+    does: str  #: First line of its docstring.
+    table: str  #: Table of a case that it adds to; a table of a joint stands after ``joints.``.
+    keys: type[BaseModel]  #: Model of that table.
+    example: Example  #: Tables of a case that is made with it.
+    #: Positional ones: name, key that it fills (none for the name of the table), meaning.
     arguments: tuple[tuple[str, str, str], ...] = (_NAME,)
-    given: Mapping[str, object] = field(default_factory=dict)
-    needed: tuple[str, ...] = ()
-    without: tuple[str, ...] = ()
+    given: Mapping[str, object] = field(default_factory=dict)  #: Keys that the method fills by itself.
+    needed: tuple[str, ...] = ()  #: Keys that must be given beside those that always must.
+    without: tuple[str, ...] = ()  #: Keys that have no meaning here.
 
     @property
     def keywords(self) -> dict[str, Argument]:
@@ -193,6 +170,7 @@ def _of_element(kind: Any) -> BuilderMethod:
     return BuilderMethod(kind.METHOD, does, kind.TABLE, kind, tables, tuple(arguments))
 
 
+#: Every method of the builder that fills a table.
 METHODS: Final = (
     BuilderMethod(
         "parameter",
@@ -286,4 +264,3 @@ METHODS: Final = (
     ),
     *map(_of_element, ELEMENTS),
 )
-"""Every method of the builder that fills a table."""

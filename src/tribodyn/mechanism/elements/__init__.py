@@ -9,6 +9,7 @@ from typing import Final
 from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.members import members_of
 
+#: Modules of this package that hold elements.
 NAMES: Final = (
     "gear",
     "rack",
@@ -21,7 +22,6 @@ NAMES: Final = (
     "motor",
     "controller",
 )
-"""Modules of this package that hold elements."""
 
+#: Every kind of element.
 ELEMENTS: Final[tuple[type[ElementKeys], ...]] = tuple(members_of(__name__, NAMES, ElementKeys))
-"""Every kind of element."""

@@ -24,10 +24,9 @@ from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
 AnySetValue = AngleSignal | SpeedSignal | PositionSignal | VelocitySignal
+#: Keys of what may be controlled; the gain of each is ``angle_gain`` and so on.
 SET: Final = ("angle", "speed", "position", "velocity")
-"""Keys of what may be controlled; the gain of each is ``angle_gain`` and so on."""
-MOST_SAMPLES: Final = 100_000
-"""Of a run: each restarts the integration."""
+MOST_SAMPLES: Final = 100_000  #: Of a run: each restarts the integration.
 _TURNS: Final = ("angle", "speed")
 
 

@@ -29,10 +29,8 @@ from tribodyn.kernels.mechanism.law import LawFunction
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.model.parts import POINT, JointKeys
 
-PARALLEL: Final = 1.0e-6
-"""Sine of the angle between two axes up to which they count as parallel."""
-_SIZE: Final = 0.1
-"""Length [m] by which angles become lengths where all joints are at one point."""
+PARALLEL: Final = 1.0e-6  #: Sine of the angle between two axes up to which they count as parallel.
+_SIZE: Final = 0.1  #: Length [m] by which angles become lengths where all joints are at one point.
 
 ARM: Final = """
 case = "mechanism"
@@ -42,80 +40,46 @@ arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2
 [joints]
 input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
 """
+#: Begin and end of a case file: examples of elements put their table between.
 DRIVE: Final = """[drives.motor]
 joint = "input"
 torque = "0.2 N m"
 """
-"""Begin and end of a case file: examples of elements put their table between."""
 
-Joints = Mapping[str, JointKeys]
-"""The joints of a case by their names."""
+Joints = Mapping[str, JointKeys]  #: The joints of a case by their names.
+#: A line: bodies, with the points as drawn that each carries [m], shape (n, 3).
 Outline = tuple[tuple[str, FloatArray], ...]
-"""A line: bodies, with the points as drawn that each carries [m], shape (n, 3)."""
 
 
 @dataclass(frozen=True)
 class Leg:
-    """One term of the equation of an element.
+    """One term of the equation of an element."""
 
-    Attributes
-    ----------
-    bodies
-        Names of the two bodies.
-    points
-        Origin as drawn on the first and on the second body [m], shape (2, 3).
-    axes
-        Columns x, y, z in the drawing, fixed to the first body, shape (3, 3).
-    along
-        Coefficients b of the displacement [1], in these axes, shape (3,).
-    about
-        Coefficient a of the angle about z [m/rad], or [1] where λ is a moment.
-    measure
-        ``coordinate`` for b·d + a θ, ``distance``, or ``path`` (for force laws).
-    length
-        Distance that counts as zero [m].
-    reported
-        Direction of the force that results hold, in the same axes, shape (3,); None for that of ``along``.
-    push
-        Force on the second body in the same axes over |λ|, beside that of λ, shape (3,); None for none.
-    """
-
-    bodies: tuple[str, str]
-    points: FloatArray
-    axes: FloatArray
-    along: FloatArray
-    about: float
+    bodies: tuple[str, str]  #: Names of the two bodies.
+    points: FloatArray  #: Origin as drawn on the first and on the second body [m], shape (2, 3).
+    axes: FloatArray  #: Columns x, y, z in the drawing, fixed to the first body, shape (3, 3).
+    along: FloatArray  #: Coefficients b of the displacement [1], in these axes, shape (3,).
+    about: float  #: Coefficient a of the angle about z [m/rad], or [1] where λ is a moment.
+    #: ``coordinate`` for b·d + a θ, ``distance``, or ``path`` (for force laws).
     measure: Literal["coordinate", "distance", "path"] = "coordinate"
-    length: float = 0.0
+    length: float = 0.0  #: Distance that counts as zero [m].
+    #: Direction of the force that results hold, in the same axes, shape (3,); None for that of ``along``.
     reported: FloatArray | None = None
+    #: Force on the second body in the same axes over |λ|, beside that of λ, shape (3,); None for none.
     push: FloatArray | None = None
 
 
 @dataclass(frozen=True)
 class ForceLaw:
-    """Meaning of an element's multiplier.
+    """Meaning of an element's multiplier."""
 
-    Attributes
-    ----------
-    function
-        A function with the decorator ``force_law``.
-    parameters
-        Values of all parameters that it reads, and of others, by their names.
-    table
-        A function of the coordinate, which the law finds evaluated.
-    over_rate
-        Whether it is a function of the rate of the coordinate instead.
-    load_of
-        Ideal joint whose reaction across its axis the law finds as ``normal``; empty for none.
-    load_leg
-        Leg of the first equation of the same element whose force across its z is ``normal``; None for none.
-    """
-
-    function: LawFunction
-    parameters: Mapping[str, float]
-    table: Signal | None = None
-    over_rate: bool = False
+    function: LawFunction  #: A function with the decorator ``force_law``.
+    parameters: Mapping[str, float]  #: Values of all parameters that it reads, and of others, by their names.
+    table: Signal | None = None  #: A function of the coordinate, which the law finds evaluated.
+    over_rate: bool = False  #: Whether it is a function of the rate of the coordinate instead.
+    #: Ideal joint whose reaction across its axis the law finds as ``normal``; empty for none.
     load_of: str = ""
+    #: Leg of the first equation of the same element whose force across its z is ``normal``; None for none.
     load_leg: int | None = None
 
 
@@ -143,37 +107,19 @@ def of_points(
 
 
 class ElementKeys(NamedGroup):
-    """Base of the keys of an element; a member says all that is to be known of its kind.
+    """Base of the keys of an element; a member says all that is to be known of its kind."""
 
-    Attributes
-    ----------
-    TABLE
-        Table of a case file that holds elements of this kind.
-    METHOD
-        Method of the builder that adds one.
-    FORCE, MOMENT
-        What the force and the moment are that results hold.
-    MOMENT_OF
-        Leg whose moment that is.
-    EXAMPLE
-        A complete case file with one element of this kind, which holds for tests of all kinds.
-    LAW
-        Force law, see :class:`ForceLaw`; None for a constraint.
-    IS_SPRING
-        Whether its outline is drawn as a coil.
-    IS_DRIVE
-        Whether it gives the moment or force of its joint as a drive does.
-    """
-
-    TABLE: ClassVar[str]
-    METHOD: ClassVar[str]
+    TABLE: ClassVar[str]  #: Table of a case file that holds elements of this kind.
+    METHOD: ClassVar[str]  #: Method of the builder that adds one.
+    #: What the force and the moment are that results hold.
     FORCE: ClassVar[str]
     MOMENT: ClassVar[str]
-    MOMENT_OF: ClassVar[int] = 0
+    MOMENT_OF: ClassVar[int] = 0  #: Leg whose moment that is.
+    #: A complete case file with one element of this kind, which holds for tests of all kinds.
     EXAMPLE: ClassVar[str]
-    LAW: ClassVar[LawFunction | None] = None
-    IS_SPRING: ClassVar[bool] = False
-    IS_DRIVE: ClassVar[bool] = False
+    LAW: ClassVar[LawFunction | None] = None  #: Force law, see :class:`ForceLaw`; None for a constraint.
+    IS_SPRING: ClassVar[bool] = False  #: Whether its outline is drawn as a coil.
+    IS_DRIVE: ClassVar[bool] = False  #: Whether it gives the moment or force of its joint as a drive does.
 
     @property
     def named_joints(self) -> dict[str, tuple[str, ...]]:

@@ -35,10 +35,9 @@ from tribodyn.mechanism.elements import element as base
 from tribodyn.mechanism.elements.joint_friction import friction_law
 from tribodyn.mechanism.elements.stop import RESTITUTION, flank_law
 
-PRESSURE_ANGLE = math.radians(20.0)
-"""Of teeth with backlash, where a case does not say it [rad]."""
+PRESSURE_ANGLE = math.radians(20.0)  #: Of teeth with backlash, where a case does not say it [rad].
+#: Distance between parallel axes, over that between all joints, up to which they are one axis.
 _OFFSET = 1.0e-9
-"""Distance between parallel axes, over that between all joints, up to which they are one axis."""
 
 
 class Gear(base.ElementKeys):

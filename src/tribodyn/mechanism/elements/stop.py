@@ -20,10 +20,10 @@ from tribodyn.cases.fields import choice, number, quantity
 from tribodyn.kernels.mechanism.law import force_law
 from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Leg, OfJointKeys
 
+#: Coefficient of restitution of hardened steel on steel in slow impacts, where a case does not say it [1].
 RESTITUTION: Final = 0.7
-"""Coefficient of restitution of hardened steel on steel in slow impacts, where a case does not say it [1]."""
+#: Least speed at which contact begins, where a case does not say it [m/s] or [rad/s].
 LEAST_RATE: Final = 1.0e-3
-"""Least speed at which contact begins, where a case does not say it [m/s] or [rad/s]."""
 
 
 @force_law("at", "side", "exponent", "scale", "damping", "least_rate")

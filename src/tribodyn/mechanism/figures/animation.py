@@ -21,8 +21,7 @@ from tribodyn.views.gltf import Solid
 from tribodyn.views.playback import time_unit
 
 TITLE: Final = "The mechanism in motion"
-_ROOM: Final = 0.08
-"""Room around the mechanism, as a share of its size."""
+_ROOM: Final = 0.08  #: Room around the mechanism, as a share of its size.
 
 
 def moving(dataset: xr.Dataset, times: FloatArray) -> tuple[Skeleton, FloatArray, FloatArray]:
@@ -81,8 +80,7 @@ class MechanismFilm:
         caption(axes, self._times[frame], "right")
 
 
-_THICK: Final = 0.012
-"""Radius of rods, as a share of the size of the mechanism."""
+_THICK: Final = 0.012  #: Radius of rods, as a share of the size of the mechanism.
 _SIDES: Final = 12
 
 

@@ -13,8 +13,7 @@ from tribodyn.results.reading import column, settled
 from tribodyn.results.variables import ERROR_UNITS
 
 TITLE: Final = "Copies around their axis"
-_ROOM: Final = 0.6
-"""Radius of the inner circle over the range of all errors."""
+_ROOM: Final = 0.6  #: Radius of the inner circle over the range of all errors.
 
 
 def draw(dataset: xr.Dataset) -> Figure:

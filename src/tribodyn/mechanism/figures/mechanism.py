@@ -15,18 +15,14 @@ from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, ou
 from tribodyn.mechanism.sections.mechanism import at_frames
 
 TITLE: Final = "The mechanism in its cycle"
+#: Bodies up to which these and their joints are named: names of more would lie on each other.
 _NAMED: Final = 16
-"""Bodies up to which these and their joints are named: names of more would lie on each other."""
-_NODE: Final = ":"
-"""Part of the names of nodes of an elastic body and of its pieces, which are not named."""
-_AWAY: Final = 9.0
-"""Distance of a name from what it names [pt]."""
-_CLOSE: Final = 0.1
-"""Distance of joints over that of all below which their names stand above each other."""
+_NODE: Final = ":"  #: Part of the names of nodes of an elastic body and of its pieces, which are not named.
+_AWAY: Final = 9.0  #: Distance of a name from what it names [pt].
+_CLOSE: Final = 0.1  #: Distance of joints over that of all below which their names stand above each other.
+#: Share of a direction to the side from which a name begins or ends there, and is not centred.
 _STEEP: Final = 0.5
-"""Share of a direction to the side from which a name begins or ends there, and is not centred."""
-_MOMENTS: Final = 8
-"""Moments that are drawn, evenly over the playback, all but the first pale."""
+_MOMENTS: Final = 8  #: Moments that are drawn, evenly over the playback, all but the first pale.
 
 
 def draw(dataset: xr.Dataset) -> Figure:
@@ -146,10 +142,8 @@ FAMILY: Final = Family(
 
 
 MODES: Final = "Shapes of the modes"
-_DRAWN: Final = 3
-"""Modes that are drawn, those of the lowest frequency."""
-_FAR: Final = 0.15
-"""Largest displacement over the size of the mechanism, and largest turn [rad], as drawn."""
+_DRAWN: Final = 3  #: Modes that are drawn, those of the lowest frequency.
+_FAR: Final = 0.15  #: Largest displacement over the size of the mechanism, and largest turn [rad], as drawn.
 
 
 def draw_modes(dataset: xr.Dataset) -> Figure:

@@ -11,59 +11,38 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.data import DIRECTION, POINT
 from tribodyn.mechanism.frames import frame
 
+#: A constraint equation: its kind, axis of the first body, axis of the second one; 0, 1, 2 for x, y, z.
 Row = tuple[int, int, int]
-"""A constraint equation: its kind, axis of the first body, axis of the second one; 0, 1, 2 for x, y, z."""
 
+#: The origins of both bodies coincide.
 AT_POINT: Final[tuple[Row, ...]] = tuple((POINT, i, 0) for i in range(3))
-"""The origins of both bodies coincide."""
-ON_AXIS: Final = AT_POINT[:2]
-"""That of the second body stays on the axis."""
+ON_AXIS: Final = AT_POINT[:2]  #: That of the second body stays on the axis.
+#: The axis of the second body stays parallel to that of the first.
 ALIGNED: Final[tuple[Row, ...]] = ((DIRECTION, 0, 2), (DIRECTION, 1, 2))
-"""The axis of the second body stays parallel to that of the first."""
-NO_TURN: Final[Row] = (DIRECTION, 1, 0)
-"""Of aligned bodies, the second does not turn about the axis."""
+NO_TURN: Final[Row] = (DIRECTION, 1, 0)  #: Of aligned bodies, the second does not turn about the axis.
 
 
 class JointType:
-    """Base of the types of joints; a member says all that is to be known of its type.
+    """Base of the types of joints; a member says all that is to be known of its type."""
 
-    Attributes
-    ----------
-    NAME
-        Its name in case files; the builder's method has underscores for hyphens.
-    MEANING
-        What it lets move, in a few words; keys in backquotes.
-    ROWS
-        What vanishes in the ideal joint.
-    AXIS, SECOND_AXIS
-        What its axes are called; empty where it has none.
-    COORDINATES
-        What can be driven, and followed by elements: ``angle``, ``position``.
-    SHAPE
-        Name of the shape of its clearance, unless the case gives another one; empty where it is always ideal.
-    FACES
-        Whether a clearance may have end faces, which hold the pin along the axis.
-    CLEARANCE
-        What a clearance makes of it, for the manual.
-    HELD
-        Type of the ideal joint in the place of one that yields by itself; empty for others.
-    KEYS
-        Keys of its own, beside those of all joints; other types refuse them.
-    NEEDED
-        Those of them that the builder's method takes as required, with values for its example.
-    """
-
-    NAME: ClassVar[str]
-    MEANING: ClassVar[str]
-    ROWS: ClassVar[tuple[Row, ...]] = ()
+    NAME: ClassVar[str]  #: Its name in case files; the builder's method has underscores for hyphens.
+    MEANING: ClassVar[str]  #: What it lets move, in a few words; keys in backquotes.
+    ROWS: ClassVar[tuple[Row, ...]] = ()  #: What vanishes in the ideal joint.
+    #: What its axes are called; empty where it has none.
     AXIS: ClassVar[str] = ""
     SECOND_AXIS: ClassVar[str] = ""
+    #: What can be driven, and followed by elements: ``angle``, ``position``.
     COORDINATES: ClassVar[tuple[str, ...]] = ()
+    #: Name of the shape of its clearance, unless the case gives another one; empty where it is always ideal.
     SHAPE: ClassVar[str] = ""
+    #: Whether a clearance may have end faces, which hold the pin along the axis.
     FACES: ClassVar[bool] = False
-    CLEARANCE: ClassVar[str] = ""
+    CLEARANCE: ClassVar[str] = ""  #: What a clearance makes of it, for the manual.
+    #: Type of the ideal joint in the place of one that yields by itself; empty for others.
     HELD: ClassVar[str] = ""
+    #: Keys of its own, beside those of all joints; other types refuse them.
     KEYS: ClassVar[type[NamedGroup]] = NamedGroup
+    #: Those of them that the builder's method takes as required, with values for its example.
     NEEDED: ClassVar[dict[str, object]] = {}
 
     @property

@@ -7,8 +7,8 @@ from tribodyn.cases.fields import Vector, vector
 from tribodyn.kernels.mechanism.data import SPRINGS
 from tribodyn.mechanism.joints.joint_type import JointType
 
+#: Number of the key's component along x, y, z: keys are along axis, second axis and across both.
 _OF_AXES = (1, 2, 0)
-"""Number of the key's component along x, y, z: keys are along axis, second axis and across both."""
 
 
 class SpringDamperKeys(NamedGroup):

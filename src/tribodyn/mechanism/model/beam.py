@@ -10,8 +10,7 @@ from tribodyn.cases.fields import Numbers, Vector, choice, count, number, quanti
 from tribodyn.cases.materials import MATERIALS
 from tribodyn.core.arrays import FloatArray
 
-SAME: Final = 1.0e-9
-"""Distance over the length of a beam at which two places are one."""
+SAME: Final = 1.0e-9  #: Distance over the length of a beam at which two places are one.
 
 
 class BeamBodyKeys(NamedGroup):

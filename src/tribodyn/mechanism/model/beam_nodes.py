@@ -23,12 +23,12 @@ from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.model.beam import SAME, BeamBodyKeys
 
 _ELASTIC: Final = ("bodies.", ".elastic")
+#: Of a cantilever: over the root of bending rigidity over mass per length, times the length squared.
 _FIRST_FREQUENCY: Final = 1.8751040687119611**2
-"""Of a cantilever: over the root of bending rigidity over mass per length, times the length squared."""
+#: Keys of the points at which the first and the second body of a joint, spring or element are.
 _ENDS: Final = (("first_point", "point"), ("second_point", "other_point", "point"))
-"""Keys of the points at which the first and the second body of a joint, spring or element are."""
+#: The same of bodies that other tables name.
 _SINGLE: Final = {"body": ("point",), "reference": ("reference_point", "point")}
-"""The same of bodies that other tables name."""
 
 
 @dataclass(frozen=True)

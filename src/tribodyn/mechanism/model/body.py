@@ -12,8 +12,7 @@ from tribodyn.mechanism.model.beam import BeamBodyKeys
 from tribodyn.mechanism.model.parts import POINT
 from tribodyn.mechanism.model.solids import NEEDED, SIZES, mesh_solid
 
-_ROUNDING: Final = 1e-6
-"""Share of an inertia by which rounded numbers may break the triangle rule."""
+_ROUNDING: Final = 1e-6  #: Share of an inertia by which rounded numbers may break the triangle rule.
 
 
 class BodyKeys(NamedGroup):
@@ -96,22 +95,15 @@ class BodyKeys(NamedGroup):
 
 @dataclass(frozen=True)
 class BodySolid:
-    """A solid as modelled.
+    """A solid as modelled."""
 
-    Attributes
-    ----------
-    points
-        Of a round solid the middles of both ends, shape (2, 3); of a box, or of the one around a mesh, its
-        centre and the middles of three faces, shape (4, 3) [m].
-    radius, inner
-        Outer and inner radius of a round solid [m]; 0 of others.
-    triangles
-        Corners of the triangles of a mesh, shape (3 n, 3): −1 to 1 along each axis of its box. Else None.
-    """
-
+    #: Of a round solid the middles of both ends, shape (2, 3); of a box, or of the one around a mesh, its
+    #: centre and the middles of three faces, shape (4, 3) [m].
     points: FloatArray
+    #: Outer and inner radius of a round solid [m]; 0 of others.
     radius: float = 0.0
     inner: float = 0.0
+    #: Corners of the triangles of a mesh, shape (3 n, 3): −1 to 1 along each axis of its box. Else None.
     triangles: FloatArray | None = None
 
 

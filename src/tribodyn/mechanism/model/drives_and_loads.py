@@ -22,6 +22,7 @@ AnySignal: TypeAlias = (
     AngleSignal | SpeedSignal | TorqueSignal | PositionSignal | VelocitySignal | ForceSignal
 )
 
+#: Quantities of a drive: a coordinate, and 0 for itself, 1 for its rate, 2 for its acceleration.
 GIVEN: Final = {
     "angle": ("angle", 0),
     "speed": ("angle", 1),
@@ -30,7 +31,6 @@ GIVEN: Final = {
     "velocity": ("position", 1),
     "force": ("position", 2),
 }
-"""Quantities of a drive: a coordinate, and 0 for itself, 1 for its rate, 2 for its acceleration."""
 
 
 def given_of(coordinate: str) -> str:
@@ -39,6 +39,7 @@ def given_of(coordinate: str) -> str:
     return f"{', '.join(some)} or {last}"
 
 
+#: Units of what drives give.
 UNITS: Final = {
     "angle": "rad",
     "speed": "rad/s",
@@ -47,16 +48,14 @@ UNITS: Final = {
     "velocity": "m/s",
     "force": "N",
 }
-"""Units of what drives give."""
-_ROUNDED: Final = 1.0e-9
-"""Share of a turn by which rounded angles may miss whole turns."""
+_ROUNDED: Final = 1.0e-9  #: Share of a turn by which rounded angles may miss whole turns.
+#: Coordinate of a joint that a table follows, by what it stands over.
 COORDINATE_OF: Final = {
     "angles": "angle",
     "speeds": "angle",
     "positions": "position",
     "velocities": "position",
 }
-"""Coordinate of a joint that a table follows, by what it stands over."""
 
 
 class DriveKeys(NamedGroup):

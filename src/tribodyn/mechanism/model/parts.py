@@ -78,11 +78,10 @@ def check_film(joint: Any) -> None:
     demand(not clearance.temperature.tables, "clearance.temperature.over_time", words)
 
 
+#: Bodies under the asperities of a clearance: elastic ones, a liner, and rigid ones.
 CONFORMAL, SLEEVE, NOTHING = "conformal", "sleeve", "none"
-"""Bodies under the asperities of a clearance: elastic ones, a liner, and rigid ones."""
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
-_LEAST_ANGLE: Final = 1e-3
-"""Sine of the least angle between two axes that must not be parallel."""
+_LEAST_ANGLE: Final = 1e-3  #: Sine of the least angle between two axes that must not be parallel.
 
 
 class _Sizes(NamedGroup):

@@ -24,16 +24,12 @@ from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.model.parts import POINT
 
 PATTERN, SCATTER = "pattern", "scatter"
-_SAME: Final = 1.0e-9
-"""Part of a turn up to which two copies are at one place."""
+_SAME: Final = 1.0e-9  #: Part of a turn up to which two copies are at one place.
 _MOST_COPIES: Final = 1000
 _OF_JOINTS: Final = ("joint", "joints", "along", "follows")
-_OF_BODIES: Final = ("between", "body", "reference", "socket")
-"""Keys that name joints, and bodies."""
-_SIZE: Final = "size"
-"""Key that holds three lengths and no place."""
-_PLACES: Final = ("points", "facets")
-"""Keys that hold the coordinates of several points."""
+_OF_BODIES: Final = ("between", "body", "reference", "socket")  #: Keys that name joints, and bodies.
+_SIZE: Final = "size"  #: Key that holds three lengths and no place.
+_PLACES: Final = ("points", "facets")  #: Keys that hold the coordinates of several points.
 
 
 class AboutKeys(NamedGroup):
@@ -218,8 +214,7 @@ def _names(values: Mapping[str, Value], table: str) -> list[str]:
     return list(dict.fromkeys(path.split(".")[1] for path in values if path.startswith(f"{table}.")))
 
 
-Part: TypeAlias = tuple[str, str]
-"""Kind and name of a part of a case."""
+Part: TypeAlias = tuple[str, str]  #: Kind and name of a part of a case.
 
 
 def parts_that_name(values: Mapping[str, Value]) -> dict[Part, set[Part]]:

@@ -17,28 +17,21 @@ from tribodyn.mechanisms.peaks import impact_time, of_rows
 from tribodyn.mechanisms.self_checks import of_reversals
 from tribodyn.mechanisms.shaft_loads import inside
 
+#: Sizes whose largest values results hold for each reversal and joint.
 PEAKS: Final = (
     Quantity("joint_force", "N", "force in the joint"),
     Quantity("pressure", "Pa", "contact pressure in the joint"),
     Quantity("offset", "m", "distance of the shaft from the middle of its bore"),
     Quantity("drive_moment", "N m", "moment of the drives of the joint"),
 )
-"""Sizes whose largest values results hold for each reversal and joint."""
 
 
 @dataclass(frozen=True)
 class Reversals:
-    """The reversals of all drives that give a motion in a run.
+    """The reversals of all drives that give a motion in a run."""
 
-    Attributes
-    ----------
-    drives
-        All drives.
-    period, duration
-        Time of a cycle, and of the whole run [s].
-    """
-
-    drives: tuple[DriveKeys, ...]
+    drives: tuple[DriveKeys, ...]  #: All drives.
+    #: Time of a cycle, and of the whole run [s].
     period: float
     duration: float
 

@@ -20,16 +20,15 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import below
 from tribodyn.kernels import dense
 
-Given = Mapping[str, Any]
-"""Values of the keys of a body [SI]."""
+Given = Mapping[str, Any]  #: Values of the keys of a body [SI].
 
+#: Keys that each solid needs.
 NEEDED: Final[Mapping[str, tuple[str, ...]]] = {
     "rod": ("start", "end", "radius"),
     "cylinder": ("centre", "length", "radius"),
     "box": ("centre", "size"),
     "mesh": ("facets",),
 }
-"""Keys that each solid needs."""
 OPTIONAL: Final[Mapping[str, tuple[str, ...]]] = {
     "cylinder": ("inner_radius",),
     "mesh": ("scale", "scaled_about"),
@@ -95,8 +94,8 @@ def check(given: Given) -> None:
     demand(not ends, "end", "the rod begins and ends at one point")
 
 
+#: Volume [m³], principal moments of inertia per mass [m²], and what else follows.
 Solid = tuple[float, Vector, dict[str, Any]]
-"""Volume [m³], principal moments of inertia per mass [m²], and what else follows."""
 
 
 def _round(length: float, radius: float, inner: float = 0.0) -> tuple[float, Vector]:
@@ -160,24 +159,12 @@ _SOLIDS: Final[Mapping[str, Callable[[Given], Solid]]] = {
 
 @dataclass(frozen=True)
 class MeshSolid:
-    """A solid of uniform density.
+    """A solid of uniform density."""
 
-    Attributes
-    ----------
-    volume
-        [m³].
-    centre
-        Its centroid [m], shape (3,).
-    squares
-        Principal moments of inertia about the centroid per mass [m²], shape (3,), rising.
-    axes
-        Principal axes as rows, shape (3, 3).
-    """
-
-    volume: float
-    centre: FloatArray
-    squares: FloatArray
-    axes: FloatArray
+    volume: float  #: [m³].
+    centre: FloatArray  #: Its centroid [m], shape (3,).
+    squares: FloatArray  #: Principal moments of inertia about the centroid per mass [m²], shape (3,), rising.
+    axes: FloatArray  #: Principal axes as rows, shape (3, 3).
 
 
 def mesh_solid(facets: Sequence[float]) -> MeshSolid:

@@ -32,36 +32,23 @@ from tribodyn.mechanisms.self_checks import (
 )
 from tribodyn.wear import between_edges, resampled
 
-_NOTED: Final = 4
-"""Surfaces of which the same is noted."""
+_NOTED: Final = 4  #: Surfaces of which the same is noted.
 _SAMPLES: Final = 24
 _FINER: Final = 4
 _FORCE: Final = ("F_cx", "F_cy", "F_cz")
 _ALL: Final = slice(None)
+#: Values that decide about the grid of a joint and the forces on it at rest, beside its wear.
 _DECIDING: Final = (*(field.name for field in fields(SurfaceLaw)), "shape", "grid")
-"""Values that decide about the grid of a joint and the forces on it at rest, beside its wear."""
 
 
 @dataclass(frozen=True)
 class Contacts:
-    """The contacts of all joints with clearance.
+    """The contacts of all joints with clearance."""
 
-    Attributes
-    ----------
-    clearances
-        Of the joints.
-    numbers
-        Of these joints among all.
-    names
-        Of the surfaces, shape (n_surfaces,).
-    places
-        Where they lie among all nodes.
-    """
-
-    clearances: tuple[Clearance, ...]
-    numbers: tuple[int, ...]
-    names: tuple[str, ...]
-    places: tuple[Place, ...]
+    clearances: tuple[Clearance, ...]  #: Of the joints.
+    numbers: tuple[int, ...]  #: Of these joints among all.
+    names: tuple[str, ...]  #: Of the surfaces, shape (n_surfaces,).
+    places: tuple[Place, ...]  #: Where they lie among all nodes.
 
     @property
     def touches(self) -> list[Touch]:

@@ -17,10 +17,8 @@ from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import ERROR_UNITS
 
 _COPY: Final = re.compile(r"(.+)\[\d+\]")
-_OF_COPY: Final = re.compile(r"([^[]+)\[\d+\](\.[^:[]+)")
-"""Path of a key of a copy."""
-_SAME: Final = 1e-9
-"""Relative difference of values that are the same."""
+_OF_COPY: Final = re.compile(r"([^[]+)\[\d+\](\.[^:[]+)")  #: Path of a key of a copy.
+_SAME: Final = 1e-9  #: Relative difference of values that are the same.
 
 
 def copies_of(dataset: xr.Dataset) -> dict[str, list[int]]:
@@ -188,6 +186,7 @@ def _of_unit(unit: str) -> Iterator[tuple[str, KeyResult]]:
     )
 
 
+#: Key results of outputs that a pattern repeats.
 COPIES: Final[dict[str, KeyResult]] = {
     **dict(entry for unit in ERROR_UNITS for entry in _of_unit(unit)),
     "copies_worst": KeyResult(
@@ -206,4 +205,3 @@ COPIES: Final[dict[str, KeyResult]] = {
         _beyond,
     ),
 }
-"""Key results of outputs that a pattern repeats."""

@@ -25,13 +25,13 @@ from tribodyn.mechanism.mechanism_variables import Observed
 from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 
 _Z: Final = 2
+#: Coordinate of a joint, or of the load itself, that a table follows, by its knots.
 OBSERVED: Final = {
     "angles": "joint_angle",
     "positions": "displacement",
     "speeds": "relative_rate",
     "velocities": "relative_velocity",
 }
-"""Coordinate of a joint, or of the load itself, that a table follows, by its knots."""
 
 
 def followed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: FollowedTable) -> FloatArray:
@@ -118,8 +118,8 @@ def stresses(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str, Flo
     return {"beam_stress": found} if np.isfinite(found).any() else {}
 
 
+#: Rates of joints that power is computed from, beside the efforts of drives.
 INPUTS: Final = ("relative_rate", "relative_velocity")
-"""Rates of joints that power is computed from, beside the efforts of drives."""
 
 
 def with_motors(model: Model, found: Observed) -> Observed:

@@ -24,13 +24,13 @@ from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import of_part, time_mean
 from tribodyn.results.summary import KeyResult
 
+#: Contacts of a block by names, with labels; results hold their numbers.
 SITUATIONS: Final = {
     "free": ("Free", "nothing of the block touches"),
     "corner": ("On one corner", "one corner touches"),
     "face": ("On one face", "two corners of one face touch, or all of it"),
     "tilted": ("On opposite faces", "corners of opposite faces touch: it is tilted as far as it goes"),
 }
-"""Contacts of a block by names, with labels; results hold their numbers."""
 _POSE: Final = ("displacement", "tilt_x", "tilt_y", "joint_angle")
 
 
@@ -78,8 +78,7 @@ def situation(touching: NDArray[np.bool_], normals: FloatArray) -> FloatArray:
     return np.where(crossed, 3.0, np.where(flat, 2.0, 1.0 * np.any(touching, axis=(1, 2))))
 
 
-_FACING: Final = 1.0e-6
-"""Least cosine against each other of the normals of two faces that are opposite."""
+_FACING: Final = 1.0e-6  #: Least cosine against each other of the normals of two faces that are opposite.
 
 
 def _share(number: int, label: str, what: str) -> ByPart:
@@ -97,7 +96,7 @@ def _share(number: int, label: str, what: str) -> ByPart:
     return made
 
 
+#: Key results of each guide, by what stands before its name.
 BY_GUIDE: Final[dict[str, ByPart]] = {
     f"{name}_share_percent": _share(number, *about) for number, (name, about) in enumerate(SITUATIONS.items())
 }
-"""Key results of each guide, by what stands before its name."""

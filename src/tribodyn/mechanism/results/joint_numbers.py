@@ -40,13 +40,13 @@ def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByP
     return made
 
 
+#: Numbers of mechanisms whose drives reverse, by name.
 OUTSIDE: Final[dict[str, ByPart]] = {
     "force_outside_N": _outside("Force", "N", "joint_force"),
     "pressure_outside_MPa": _outside("Contact pressure", "MPa", "pressure", scale=1e-6),
     "offset_outside_um": _outside("Offset", "µm", "offset", scale=1e6),
     "drive_moment_outside_Nm": _outside("Drive moment", "N m", "drive_moment"),
 }
-"""Numbers of mechanisms whose drives reverse, by name."""
 
 
 def _driven(label: str, unit: str, meaning: str, reduce: Callable[[xr.Dataset, slice], float]) -> ByPart:
@@ -82,6 +82,7 @@ def _rate_at_peak(effort: str, other: str, dataset: xr.Dataset, joints: slice) -
     return math.nan if both or not values[where] else float(abs(power / values[where]))
 
 
+#: Numbers for the size of motors and actuators, by name.
 DRIVEN: Final[dict[str, ByPart]] = {
     "drive_power_rms_W": _driven(
         "Power of the drives, rms",
@@ -114,7 +115,6 @@ DRIVEN: Final[dict[str, ByPart]] = {
         partial(_rate_at_peak, "drive_force", "drive_moment"),
     ),
 }
-"""Numbers for the size of motors and actuators, by name."""
 
 
 def pair(
@@ -197,6 +197,7 @@ def _pair_named(
     return {name: partial(made, name) for name in names}
 
 
+#: Numbers of each joint, by what stands before its name.
 BY_JOINT: Final[dict[str, ByPart]] = {
     **OUTSIDE,
     **DRIVEN,
@@ -313,4 +314,3 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         lambda d, j: peak(column(d, "partner_wear_depth")[readings.of_surfaces(d, j)]) * 1e9,
     ),
 }
-"""Numbers of each joint, by what stands before its name."""

@@ -94,15 +94,15 @@ def _angles(n_theta: int) -> FloatArray:
     return np.asarray(np.mod(2.0 * np.pi * np.arange(n_theta) / n_theta + np.pi, 2.0 * np.pi))
 
 
+#: Quantities in results of large models, beside the coordinates of loads, by default: those of a report.
 OF_LARGE: Final = (
     *("position", "orientation", "velocity", "acceleration"),
     *("joint_angle", "displacement", "tilt_x", "tilt_y"),
     *("reaction_force", "reaction_moment", "drive_moment", "drive_force"),
     *("joint_friction", "pressure_max", "gap_min", *OIL),
 )
-"""Quantities in results of large models, beside the coordinates of loads, by default: those of a report."""
+#: Inputs of the forces and moments of elements.
 _OF_LEGS: Final = ("reaction_force", "reaction_moment", "displacement", "relative_velocity")
-"""Inputs of the forces and moments of elements."""
 _ALWAYS: Final = ("reaction_force", "drive_moment", "drive_force")
 _OF_CLEARANCES: Final = ("tilt_x", "tilt_y", "joint_angle", "displacement", "pressure_max")
 _OF_FLASH: Final = ("relative_velocity", "relative_rate", "gap_min")
@@ -163,19 +163,13 @@ def columns(model: Model, found: Observed) -> dict[str, FloatArray]:
 
 @dataclass(frozen=True)
 class Layout:
-    """Columns of a row that a run keeps.
+    """Columns of a row that a run keeps."""
 
-    Attributes
-    ----------
-    n_bodies, n_joints, n_others
-        Numbers of bodies, of joints, and of springs, loads and legs of elements.
-    bodies, joints, others
-        Quantities kept of each.
-    """
-
+    #: Numbers of bodies, of joints, and of springs, loads and legs of elements.
     n_bodies: int
     n_joints: int
     n_others: int
+    #: Quantities kept of each.
     bodies: Table
     joints: Table
     others: Table

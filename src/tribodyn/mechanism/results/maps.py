@@ -19,17 +19,10 @@ class Maps:
 
     Surfaces with fewer rows or columns than the largest are filled up: their last row and column stand there
     again, and fields are zero there.
-
-    Attributes
-    ----------
-    names
-        Of the surfaces: joint and surface of it.
-    places
-        Where they lie among all nodes.
     """
 
-    names: tuple[str, ...]
-    places: tuple[Place, ...]
+    names: tuple[str, ...]  #: Of the surfaces: joint and surface of it.
+    places: tuple[Place, ...]  #: Where they lie among all nodes.
 
     @property
     def n_nodes(self) -> int:

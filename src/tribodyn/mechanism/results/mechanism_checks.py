@@ -18,10 +18,8 @@ from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.joint_friction import JointFriction
 from tribodyn.mechanisms.self_checks import ENERGY_LIMIT, beyond_law, of_steps
 
-_DEVELOPED: Final = 5.0
-"""Sliding speed over the slip velocity from which on friction is developed."""
-_SHARE: Final = 0.05
-"""Share of the sliding distance below it that is reported."""
+_DEVELOPED: Final = 5.0  #: Sliding speed over the slip velocity from which on friction is developed.
+_SHARE: Final = 0.05  #: Share of the sliding distance below it that is reported.
 
 
 def of_slow_sliding(
@@ -85,8 +83,7 @@ def _speed(clearance: Clearance, position: FloatArray, spin: FloatArray, velocit
     return np.hypot(radius * spin[:, 2], velocity[:, 2])
 
 
-GAP_LIMIT: Final = 1.0e-9
-"""Residual of a constraint, in m or rad, below which nobody sees it."""
+GAP_LIMIT: Final = 1.0e-9  #: Residual of a constraint, in m or rad, below which nobody sees it.
 _TIGHTEN: Final = "Tighten solver.rtol tenfold."
 
 

@@ -237,6 +237,7 @@ def _over_positions(reduce: Callable[[FloatArray], float]) -> Callable[[FloatArr
     return lambda values: reduce(values) if values.size > 1 else np.nan
 
 
+#: Numbers of each mode, by what stands before its number.
 BY_MODE: Final[dict[str, ByPart]] = {
     "frequency_Hz": _of_mode(
         "Frequency at the start",
@@ -268,4 +269,3 @@ BY_MODE: Final[dict[str, ByPart]] = {
         _over_positions(lambda values: float(np.nanmax(values))),
     ),
 }
-"""Numbers of each mode, by what stands before its number."""

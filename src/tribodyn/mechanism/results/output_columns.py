@@ -105,8 +105,7 @@ def output_coordinates(case: MechanismCase, outputs: Sequence[Output]) -> dict[s
     }
 
 
-_LEAD: Final = 120
-"""Positions in a cycle through which the ideal mechanism is led to the first one."""
+_LEAD: Final = 120  #: Positions in a cycle through which the ideal mechanism is led to the first one.
 
 
 def error_growth(

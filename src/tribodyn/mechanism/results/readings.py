@@ -14,8 +14,7 @@ from tribodyn.mechanisms.mechanism_protocol import plain
 from tribodyn.results.reading import column, entries, of_part
 from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
 
-_KEPT: Final = 8
-"""Results of which the numbers of joints and surfaces are kept."""
+_KEPT: Final = 8  #: Results of which the numbers of joints and surfaces are kept.
 
 
 def lengths(vectors: FloatArray) -> FloatArray:

@@ -56,6 +56,7 @@ def _number(
     return made
 
 
+#: Key results of each spring, by what stands before its name.
 BY_SPRING: Final[dict[str, ByPart]] = {
     "spring_push_max_N": _number(
         "Push, peak",
@@ -81,4 +82,3 @@ BY_SPRING: Final[dict[str, ByPart]] = {
         "Energy, peak", "J", "Largest energy that it stores.", "spring_energy", np.max
     ),
 }
-"""Key results of each spring, by what stands before its name."""

@@ -19,8 +19,7 @@ from tribodyn.mechanisms.bushing import of_clearances, of_heat
 from tribodyn.mechanisms.self_checks import named
 from tribodyn.wear import loaded_depth
 
-_FRICTION: Final = "joint.friction_coefficient"
-"""Name of the friction of a joint in tables of properties."""
+_FRICTION: Final = "joint.friction_coefficient"  #: Name of the friction of a joint in tables of properties.
 
 
 def opens(model: Model) -> list[bool]:

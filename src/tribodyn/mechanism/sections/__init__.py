@@ -12,6 +12,7 @@ from tribodyn.views.common import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
 from tribodyn.views.wear import WEAR_HISTORY
 
+#: Chapters in reading order.
 CHAPTERS: Final = (
     Chapter(
         "playback",
@@ -28,8 +29,8 @@ CHAPTERS: Final = (
     ),
     Chapter("worn", "Wear", "What is worn off the joints.", (WEAR.section, WEAR_HISTORY.section)),
 )
-"""Chapters in reading order."""
 
+#: Overlays of a comparison of runs.
 OVERLAYS: Final = (
     Overlay(
         "force",
@@ -64,4 +65,3 @@ OVERLAYS: Final = (
         ),
     ),
 )
-"""Overlays of a comparison of runs."""

@@ -20,18 +20,10 @@ from tribodyn.views.playback import LINE_ERROR, dense_times, in_playback
 
 @dataclass(frozen=True)
 class Shafts:
-    """Shafts of the joints of a result.
+    """Shafts of the joints of a result."""
 
-    Attributes
-    ----------
-    dataset
-        The result.
-    case
-        Its case; without one the motion is that of straight lines between rows.
-    """
-
-    dataset: xr.Dataset
-    case: MechanismCase | None
+    dataset: xr.Dataset  #: The result.
+    case: MechanismCase | None  #: Its case; without one the motion is that of straight lines between rows.
 
     def path(self, joint: int) -> FloatArray:
         """Return places in the bore over the playback, which straight lines may join [m], shape (n, 3)."""
@@ -271,8 +263,8 @@ FILMS: Final = Chart(
     needs=("film_force", "film_pressure_max", "film_thickness_min", "film_pressure_peak", "joint"),
     panels=films,
 )
+#: In reading order, of the report and of ``figures/``; the energy balance follows.
 CHARTS: Final = (MODES, OUTPUT_ERRORS, ERROR_ESTIMATES, JOINT_FORCES, CLEARANCES, GUIDES, FILMS, MOTION)
-"""In reading order, of the report and of ``figures/``; the energy balance follows."""
 ENERGY: Final = balance_chart(
     WHOLE,
     name="energy",

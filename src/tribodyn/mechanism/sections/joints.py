@@ -22,11 +22,9 @@ from tribodyn.views.playback import playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.wear import WORN, fitting_unit
 
-MOST: Final = 8
-"""Joints that are shown one by one; of more, those that are loaded most."""
+MOST: Final = 8  #: Joints that are shown one by one; of more, those that are loaded most.
 _AXES: Final = "xyz"
-_LINE: Final = 1.0e-3
-"""Range of a force across its line, over its size, up to which it keeps its direction."""
+_LINE: Final = 1.0e-3  #: Range of a force across its line, over its size, up to which it keeps its direction.
 LAID_FLAT: Final = (
     "Surfaces cut open and laid flat: the angle about the axis of the joint, and height, radius of a face, "
     "or arc of a ball."
@@ -35,21 +33,11 @@ LAID_FLAT: Final = (
 
 @dataclass(frozen=True)
 class Detailed:
-    """The joints that a large mechanism is shown by.
+    """The joints that a large mechanism is shown by."""
 
-    Attributes
-    ----------
-    joints
-        Their numbers, in the order of the case.
-    of
-        How many there are of their kind.
-    by
-        What is largest in these.
-    """
-
-    joints: list[int]
-    of: int
-    by: str
+    joints: list[int]  #: Their numbers, in the order of the case.
+    of: int  #: How many there are of their kind.
+    by: str  #: What is largest in these.
 
     @property
     def which(self) -> str:
@@ -105,21 +93,11 @@ def _vector(label: str, values: FloatArray) -> Panel:
 
 @dataclass(frozen=True)
 class Hodograph:
-    """Path of the end of a force vector in a plane.
+    """Path of the end of a force vector in a plane."""
 
-    Attributes
-    ----------
-    joint
-        Name.
-    values
-        Components of the force in a unit that fits, shape (2, n_t).
-    labels
-        Of the axes.
-    """
-
-    joint: str
-    values: FloatArray
-    labels: tuple[str, str]
+    joint: str  #: Name.
+    values: FloatArray  #: Components of the force in a unit that fits, shape (2, n_t).
+    labels: tuple[str, str]  #: Of the axes.
 
 
 def hodograph(dataset: xr.Dataset, joint: int) -> Hodograph | None:
@@ -173,28 +151,17 @@ def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
 
 @dataclass(frozen=True)
 class SurfaceMap:
-    """A field on the surfaces of joints, or of their films, cut open and laid flat.
+    """A field on the surfaces of joints, or of their films, cut open and laid flat."""
 
-    Attributes
-    ----------
-    variable
-        Name of the field in a result.
-    name, figure
-        Names of its section and of its figure.
-    label, caption
-        What it is, and how to read it.
-    per
-        Name of the dimension that counts its surfaces.
-    moving
-        Whether it is one for each frame, a pressure [MPa]; otherwise a depth in a unit that fits.
-    """
-
-    variable: str
+    variable: str  #: Name of the field in a result.
+    #: Names of its section and of its figure.
     name: str
     figure: str
+    #: What it is, and how to read it.
     label: str
     caption: str
-    per: str
+    per: str  #: Name of the dimension that counts its surfaces.
+    #: Whether it is one for each frame, a pressure [MPa]; otherwise a depth in a unit that fits.
     moving: bool
 
     @property
@@ -311,5 +278,4 @@ FILM_PRESSURE: Final = SurfaceMap(
     moving=True,
 )
 WEAR: Final = SurfaceMap("wear_depth", "wear", "wear_maps", "wear depth", WORN, "surface", moving=False)
-MAPS: Final = (PRESSURE, FILM_PRESSURE, WEAR)
-"""Maps of surfaces, on a page and as figures."""
+MAPS: Final = (PRESSURE, FILM_PRESSURE, WEAR)  #: Maps of surfaces, on a page and as figures.

@@ -17,23 +17,15 @@ from tribodyn.mechanisms.shaft_loads import Factors, parts_of
 from tribodyn.views.playback import playback_times
 
 _OVER: Final = ("times", *OBSERVED)
-_NUMBERS: Final = {over: number for number, over in enumerate(_OVER)}
-"""Numbers of what signals follow."""
+_NUMBERS: Final = {over: number for number, over in enumerate(_OVER)}  #: Numbers of what signals follow.
 
 
 @dataclass(frozen=True)
 class LoadArrows:
-    """Point, force and moment of a load at the frames.
+    """Point, force and moment of a load at the frames."""
 
-    Attributes
-    ----------
-    point
-        Where its force acts [mm], shape (n_frames, 3).
-    force, moment
-        Global axes [N] and [N m], shapes (n_frames, 3).
-    """
-
-    point: FloatArray
+    point: FloatArray  #: Where its force acts [mm], shape (n_frames, 3).
+    #: Global axes [N] and [N m], shapes (n_frames, 3).
     force: FloatArray
     moment: FloatArray
 

@@ -23,8 +23,7 @@ from tribodyn.views.encode import packed
 from tribodyn.views.numbers import fitting, in_words
 from tribodyn.views.playback import magnification, playback_times
 
-_SUSTAINED: Final = 99.0
-"""Percentile of the force over time for which an arrow has its full length."""
+_SUSTAINED: Final = 99.0  #: Percentile of the force over time for which an arrow has its full length.
 
 
 def clearances(

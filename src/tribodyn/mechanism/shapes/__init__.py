@@ -10,13 +10,12 @@ from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import members_of
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape
 
-NAMES: Final = ("cylinder", "round", "mesh", "guide", "slot")
-"""Modules of this package."""
+NAMES: Final = ("cylinder", "round", "mesh", "guide", "slot")  #: Modules of this package.
 
+#: Every shape of a clearance by its name.
 SHAPES: Final[dict[str, ClearanceShape]] = {
     kind.NAME: kind() for kind in members_of(__name__, NAMES, ClearanceShape)
 }
-"""Every shape of a clearance by its name."""
 
 
 def shapes_of(kind: JointType) -> tuple[str, ...]:

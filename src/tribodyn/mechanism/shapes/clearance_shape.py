@@ -14,37 +14,22 @@ Local: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
 class ClearanceShape:
-    """Base of the shapes of a clearance; a member says all that is to be known of its shape.
+    """Base of the shapes of a clearance; a member says all that is to be known of its shape."""
 
-    Attributes
-    ----------
-    NAME
-        Its name in case files.
-    TYPES
-        Types of joints that may have it, beside those whose usual shape it is.
-    NEEDED
-        Keys that it needs, with what they are.
-    EXAMPLE
-        Values of these keys.
-    KEYS
-        Keys of its own, beside radius, radial clearance, length and those of all shapes; others refuse them.
-    BORE
-        Whether it is a shaft in a bore, which takes a form, a pin of another length, a sleeve and a film.
-    IDEAL
-        Type of the ideal joint that holds the same, which the joint becomes as the clearance vanishes; empty
-        for that of the joint itself.
-    WALLS
-        Number of its walls, if these are flat.
-    """
-
-    NAME: ClassVar[str]
+    NAME: ClassVar[str]  #: Its name in case files.
+    #: Types of joints that may have it, beside those whose usual shape it is.
     TYPES: ClassVar[tuple[str, ...]] = ()
+    #: Keys that it needs, with what they are.
     NEEDED: ClassVar[dict[str, str]] = {"radius": "its radius", "radial": "its clearance"}
-    EXAMPLE: ClassVar[dict[str, object]] = {"radius": "10 mm", "radial": "20 um"}
+    EXAMPLE: ClassVar[dict[str, object]] = {"radius": "10 mm", "radial": "20 um"}  #: Values of these keys.
+    #: Keys of its own, beside radius, radial clearance, length and those of all shapes; others refuse them.
     KEYS: ClassVar[type[NamedGroup]] = NamedGroup
+    #: Whether it is a shaft in a bore, which takes a form, a pin of another length, a sleeve and a film.
     BORE: ClassVar[bool] = False
+    #: Type of the ideal joint that holds the same, which the joint becomes as the clearance vanishes; empty
+    #: for that of the joint itself.
     IDEAL: ClassVar[str] = ""
-    WALLS: ClassVar[int] = 0
+    WALLS: ClassVar[int] = 0  #: Number of its walls, if these are flat.
 
     def check(self, kind: JointType, keys: Any) -> None:
         """Refuse keys that do not fit a type of joint, named as in its table; what is needed is there."""

@@ -9,8 +9,7 @@ from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape, Local
 
-FLANGE: Final = 1.5
-"""Outer radius of end faces over the radius of the pin, where the case does not say it."""
+FLANGE: Final = 1.5  #: Outer radius of end faces over the radius of the pin, where the case does not say it.
 
 
 class BoreKeys(NamedGroup):

@@ -9,8 +9,7 @@ from tribodyn.joints.shapes import Guide, Wall
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape, Local
 
-_NARROW: Final = 0.1
-"""Largest clearance over the width or the height of a block."""
+_NARROW: Final = 0.1  #: Largest clearance over the width or the height of a block.
 
 
 class BlockKeys(NamedGroup):

@@ -15,10 +15,9 @@ from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth,
 from tribodyn.views.events import series
 
 DEGREES: Final = float(np.rad2deg(1.0))
+#: Speed errors that section 5.3 prints [deg/s], by clearance [µm].
 PAPER_SPEED_ERRORS: Final = {20: 2.5e-4, 40: 7.5e-4}
-"""Speed errors that section 5.3 prints [deg/s], by clearance [µm]."""
-_SPEEDS: Final = (1e-5, 1e-1)
-"""Range of the speed errors drawn [deg/s]."""
+_SPEEDS: Final = (1e-5, 1e-1)  #: Range of the speed errors drawn [deg/s].
 
 
 def motion_data(runs: Runs, formulation: str) -> xr.Dataset:

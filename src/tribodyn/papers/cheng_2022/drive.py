@@ -77,8 +77,8 @@ _ENDS: Final = (CLEARANCES[0], CLEARANCES[-1])
 _WAYS: Final = ("forward", "back")
 _TOGETHER: Final = "all together"
 _ADDED: Final = "the six added up"
+#: Error that section 5.3 gives for all joints [deg].
 _PAPER: Final = {CLEARANCES[0]: 0.14, CLEARANCES[-1]: 0.301}
-"""Error that section 5.3 gives for all joints [deg]."""
 _LOOKS: Final = {"forward": (BLUE, -0.2, ""), "back": (ORANGE, 0.2, "///")}
 
 

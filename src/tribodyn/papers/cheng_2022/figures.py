@@ -14,6 +14,7 @@ from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text
 
+#: Every figure of the paper that shows results, by name, and two that its conclusions ask for.
 FIGURES: Final[dict[str, PaperFigure]] = {
     figure.name: figure
     for figure in (
@@ -33,7 +34,6 @@ FIGURES: Final[dict[str, PaperFigure]] = {
         undamped.UNDAMPED,
     )
 }
-"""Every figure of the paper that shows results, by name, and two that its conclusions ask for."""
 
 __all__ = ["FIGURES", "FORMULATIONS", "PaperFigure", "Runs"]
 

@@ -8,8 +8,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre_velocity
 
-HARDEST: Final = 0.05
-"""Samples follow the steps for this long after a reversal [s]: ``run.impact_window``."""
+HARDEST: Final = 0.05  #: Samples follow the steps for this long after a reversal [s]: ``run.impact_window``.
 _PARTS: Final = {"c": "contact", "k": "rigid", "d": "damping"}
 
 

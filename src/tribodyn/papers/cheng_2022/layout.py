@@ -11,6 +11,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.views.events import series
 
+#: Colour and dash pattern of each clearance.
 STYLES: Final[tuple[tuple[str, style.LineStyle], ...]] = (
     (style.INK, style.SOLID),
     (style.BLUE, style.DASHED),
@@ -18,10 +19,9 @@ STYLES: Final[tuple[tuple[str, style.LineStyle], ...]] = (
     (style.ORANGE, style.DOTTED),
     (style.VERMILION, style.SOLID),
 )
-"""Colour and dash pattern of each clearance."""
 
+#: Label of an axis with θ of Eqs. 44 and 48: the direction in which the contact pushes the trunnion.
 ANGLE: Final = "bushing angle θ of the paper [°]"
-"""Label of an axis with θ of Eqs. 44 and 48: the direction in which the contact pushes the trunnion."""
 
 
 def by_clearance(dataset: xr.Dataset, name: str, scale: float = 1.0) -> style.Curves:

@@ -19,8 +19,8 @@ from tribodyn.papers.cheng_2022.reduced.sections.mechanism import case_of
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 
+#: Vane angles of the pictures [deg]; the smallest that the mechanism reaches, 61.0°, stands for the first.
 ANGLES: Final = (60.0, 90.0, 120.0)
-"""Vane angles of the pictures [deg]; the smallest that the mechanism reaches, 61.0°, stands for the first."""
 
 
 def instants(vsv: Vsv) -> tuple[FloatArray, FloatArray]:

@@ -14,17 +14,14 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
 
-CLEARANCES: Final = (20e-6, 25e-6, 30e-6, 35e-6, 40e-6)
-"""Clearances of section 5.3 [m]."""
+CLEARANCES: Final = (20e-6, 25e-6, 30e-6, 35e-6, 40e-6)  #: Clearances of section 5.3 [m].
+#: Joints of the mechanism, as the built-in case ``vsv-joints`` calls them; Eq. 11 counts these six.
 JOINTS: Final = ("crank-pivot", "crank-ball", "ring-ball", "guide", "pin", "trunnion")
-"""Joints of the mechanism, as the built-in case ``vsv-joints`` calls them; Eq. 11 counts these six."""
-LAWS: Final = ("rsdc", "ke")
-"""Contact laws that section 4 compares."""
+LAWS: Final = ("rsdc", "ke")  #: Contact laws that section 4 compares.
 FORMULATIONS: Final = ("paper", "exact")
+#: Time over which the speed error is averaged [s]: several periods of what rings after the reversals.
 _TREND: Final = 0.2
-"""Time over which the speed error is averaged [s]: several periods of what rings after the reversals."""
-_STEP: Final = 5e-3
-"""Time between the instants at which that is done [s]."""
+_STEP: Final = 5e-3  #: Time between the instants at which that is done [s].
 
 
 def _silent(text: str) -> None:
@@ -219,21 +216,11 @@ def mean_rate(time: FloatArray, error: FloatArray, run: xr.Dataset) -> tuple[Flo
 
 @dataclass(frozen=True)
 class PaperFigure:
-    """One figure of the paper, made from our own runs, or one that it should have.
+    """One figure of the paper, made from our own runs, or one that it should have."""
 
-    Attributes
-    ----------
-    name
-        Name on the command line and of the files: ``fig12``, or what it shows where the paper has none.
-    title
-        What it shows.
-    data
-        Returns the data, given the runs and the formulation (``paper`` or ``exact``).
-    draw
-        Draws it from its data, with the panels of the original.
-    """
-
+    #: Name on the command line and of the files: ``fig12``, or what it shows where the paper has none.
     name: str
-    title: str
+    title: str  #: What it shows.
+    #: Returns the data, given the runs and the formulation (``paper`` or ``exact``).
     data: Callable[[Runs, str], xr.Dataset]
-    draw: Callable[[xr.Dataset], Figure]
+    draw: Callable[[xr.Dataset], Figure]  #: Draws it from its data, with the panels of the original.

@@ -14,12 +14,12 @@ from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth
 from tribodyn.views.events import series
 
 CLEARANCE: Final = 20e-6
+#: The three centres: name, height over the length of the bushing, look.
 CENTRES: Final[tuple[tuple[str, float, str, style.LineStyle], ...]] = (
     ("top centre", 0.5, style.BLUE, style.SOLID),
     ("middle centre", 0.0, style.INK, style.DASHED),
     ("bottom centre", -0.5, style.VERMILION, style.DASHDOT),
 )
-"""The three centres: name, height over the length of the bushing, look."""
 
 
 def force_data(runs: Runs, formulation: str) -> xr.Dataset:

@@ -14,29 +14,23 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 
-FRICTIONS: Final = ("moment", "traction")
-"""Models of friction: the paper's, and the one of ``exact``."""
-TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6)
-"""Relative tolerances; the absolute ones shrink alike."""
+FRICTIONS: Final = ("moment", "traction")  #: Models of friction: the paper's, and the one of ``exact``.
+TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6)  #: Relative tolerances; the absolute ones shrink alike.
 DRAWN: Final = TOLERANCES[:3]
+#: A run that holds all that the paper shows, two cycles and a third.
 THREE_CYCLES: Final = {"duration": f"{6.0 * math.pi} s", "impact_window": "50 ms", "impact_rows": 1000}
-"""A run that holds all that the paper shows, two cycles and a third."""
+#: Absolute tolerances at the loosest relative one.
 _ATOL: Final = {
     "position": (2e-10, "m"),
     "tilt": (2e-8, "rad"),
     "velocity": (2e-6, "m/s"),
     "tilt_rate": (2e-4, "rad/s"),
 }
-"""Absolute tolerances at the loosest relative one."""
-_SHOWN: Final = 0.3
-"""Time after the first reversal until which a run goes on [s]."""
-_ROWS: Final = 20_000
-"""Samples kept of that time: every step, unless a run takes more."""
-_CYCLE: Final = 2.0 * math.pi
-"""Length of a drive cycle [s], which the figure shows."""
+_SHOWN: Final = 0.3  #: Time after the first reversal until which a run goes on [s].
+_ROWS: Final = 20_000  #: Samples kept of that time: every step, unless a run takes more.
+_CYCLE: Final = 2.0 * math.pi  #: Length of a drive cycle [s], which the figure shows.
 _WHOLE: Final = {"duration": f"{_CYCLE} s", "impact_window": f"{0.5 * _CYCLE} s"}
-_BINS: Final = np.linspace(0.0, _CYCLE, 400)
-"""Times between which the largest force is drawn [s]."""
+_BINS: Final = np.linspace(0.0, _CYCLE, 400)  #: Times between which the largest force is drawn [s].
 _LOOKS: Final = ((style.GREEN, style.SOLID), (style.BLUE, style.DASHED), (style.VERMILION, style.DOTTED))
 
 

@@ -16,8 +16,7 @@ from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, on_grid, over_cle
 from tribodyn.views.bushing import Unrolled, unrolled
 
 CYCLES: Final = (100, 200, 300, 400)
-DIVISOR: Final = 65.0
-"""The bare number that the paper's depths come out with, see Eq. 47 in the errata."""
+DIVISOR: Final = 65.0  #: The bare number that the paper's depths come out with, see Eq. 47 in the errata.
 _PICOMETRE: Final = 1e-12
 
 

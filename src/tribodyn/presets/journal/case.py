@@ -29,12 +29,12 @@ from tribodyn.cases.signals import SpeedTable
 
 SECTION_4 = "paper, section 4.1"
 _FRICTION = "joint.friction_coefficient"
+#: Defaults with oil, where the journal sinks through the film first.
 _LUBRICATED: dict[str, Value] = {
     "title": "Journal bearing, rough contact in oil",
     "run.duration": 0.05,
     "run.output_interval": 5e-5,
 }
-"""Defaults with oil, where the journal sinks through the film first."""
 
 
 class JournalJoint(PlainJoint):
@@ -259,15 +259,14 @@ BODY: Final = "journal"
 BEARING: Final = "bearing"
 _CENTRE: Final = (0.0, 0.0, 0.0)
 _ALONG: Final = (0.0, 0.0, 1.0)
+#: Directions of loads; moments about Y are left-handed.
 _CONSTANT: Final = {
     "force_x": (1.0, 0.0, 0.0),
     "force_y": (0.0, 1.0, 0.0),
     "moment_x": (1.0, 0.0, 0.0),
     "moment_y": (0.0, -1.0, 0.0),
 }
-"""Directions of loads; moments about Y are left-handed."""
-_LEAST_SPIN: Final = 1.0e-9
-"""Least moment of inertia about the axis over that across it: no body has none."""
+_LEAST_SPIN: Final = 1.0e-9  #: Least moment of inertia about the axis over that across it: no body has none.
 
 
 def mechanism_of(case: JournalCase) -> MechanismCase:

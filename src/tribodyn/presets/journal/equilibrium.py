@@ -24,24 +24,17 @@ from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
 from tribodyn.lubrication.oil_film import Film
 from tribodyn.mechanisms.balance import damped_newton
 
-_START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)
-"""Separations over σ tried for the first guess."""
+_START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)  #: Separations over σ tried for the first guess.
 
 
 @dataclass(frozen=True)
 class Loads:
-    """Loads on the centre of the journal.
+    """Loads on the centre of the journal."""
 
-    Attributes
-    ----------
-    force_x, force_y
-        W_x and W_y [N].
-    moment_x, moment_y
-        About X (right-handed) and Y (left-handed, as φ_y) [N m]; they matter with tilt only.
-    """
-
+    #: W_x and W_y [N].
     force_x: float
     force_y: float
+    #: About X (right-handed) and Y (left-handed, as φ_y) [N m]; they matter with tilt only.
     moment_x: float = 0.0
     moment_y: float = 0.0
 
@@ -62,33 +55,18 @@ class Loads:
 class Journal:
     """A journal in a bushing under stated loads, for its static equilibrium.
 
-    Attributes
-    ----------
-    tilts
-        Whether the journal can tilt; otherwise it stays parallel to the bushing.
-    speed
-        Speed of rotation ω about Z, right-handed, kept by a drive [rad/s].
-    loads
-        Loads at the start.
-    joint
-        The bushing.
-    film
-        The oil film; none by default.
-    changes
-        Whether load or speed follow a table.
-
     Raises
     ------
     InputError
         If bushing and film are not of one size.
     """
 
-    tilts: bool
-    speed: float
-    loads: Loads
-    joint: BushingJoint
-    film: Film | None = None
-    changes: bool = False
+    tilts: bool  #: Whether the journal can tilt; otherwise it stays parallel to the bushing.
+    speed: float  #: Speed of rotation ω about Z, right-handed, kept by a drive [rad/s].
+    loads: Loads  #: Loads at the start.
+    joint: BushingJoint  #: The bushing.
+    film: Film | None = None  #: The oil film; none by default.
+    changes: bool = False  #: Whether load or speed follow a table.
 
     def __post_init__(self) -> None:
         """Refuse a film of another size than the bushing."""
@@ -135,24 +113,13 @@ def journal_in(
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A journal at rest in its bushing, but for its rotation.
+    """A journal at rest in its bushing, but for its rotation."""
 
-    Attributes
-    ----------
-    journal
-        The journal, with its speed.
-    attitude
-        (e_x, e_y, φ_x, φ_y) [m, rad], shape (4,).
-    contact
-        Wrench of contact pressure and friction on the journal (F_x, F_y, M_x, M_y, M_z) [N, N m], shape (5,).
-    film
-        The same of the film.
-    """
-
-    journal: Journal
-    attitude: FloatArray
+    journal: Journal  #: The journal, with its speed.
+    attitude: FloatArray  #: (e_x, e_y, φ_x, φ_y) [m, rad], shape (4,).
+    #: Wrench of contact pressure and friction on the journal (F_x, F_y, M_x, M_y, M_z) [N, N m], shape (5,).
     contact: FloatArray
-    film: FloatArray
+    film: FloatArray  #: The same of the film.
 
     @property
     def eccentricity(self) -> float:

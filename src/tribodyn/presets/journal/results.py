@@ -18,11 +18,11 @@ from tribodyn.results.reading import column, norm, peak
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import Variable
 
+#: Distance from the static equilibrium, over the clearance, within which a journal has settled.
 SETTLED: Final = 0.01
-"""Distance from the static equilibrium, over the clearance, within which a journal has settled."""
-_AT_REST: Final = 1.0e-9
-"""Speed of rotation below which a journal does not turn [rad/s]."""
+_AT_REST: Final = 1.0e-9  #: Speed of rotation below which a journal does not turn [rad/s].
 
+#: By name; those that a mechanism has, too, under the names of the paper.
 VARIABLES: Final[dict[str, Variable]] = {
     **mechanism_variables.VARIABLES,
     "e_x": Variable("m", "offset of the journal's centre along X"),
@@ -49,7 +49,6 @@ VARIABLES: Final[dict[str, Variable]] = {
     "e_x_balance": Variable("m", "e_x of the static equilibrium", ()),
     "e_y_balance": Variable("m", "e_y of the static equilibrium", ()),
 }
-"""By name; those that a mechanism has, too, under the names of the paper."""
 
 
 def named_as_printed(native: Mapping[str, FloatArray], *, tilts: bool) -> dict[str, FloatArray]:
@@ -154,6 +153,7 @@ _OF_MECHANISMS: Final = (
     *("flash_temperature_K", "film_pressure_max_MPa", "film_thickness_min_um", "film_power_mean_W"),
     "energy_residual_percent",
 )
+#: By name, in reading order.
 KEY_RESULTS: Final[dict[str, KeyResult]] = {
     "settling_time_ms": KeyResult(
         "Settling time",
@@ -216,4 +216,3 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
     ),
     **{name: mechanism_results.KEY_RESULTS[name] for name in _OF_MECHANISMS},
 }
-"""By name, in reading order."""

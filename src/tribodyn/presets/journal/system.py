@@ -26,8 +26,8 @@ from tribodyn.results.dataset import MODEL
 
 _LOADS: Final = ("force_x", "force_y", "moment_x", "moment_y")
 _TURN: Final = slice(ORIENTATION, VELOCITY)
+#: Share of the relative tolerance that holds for each state: the position is the eccentricity.
 _RELATIVE: Final = np.repeat([1.0, 0.0, 1.0], [ORIENTATION, VELOCITY - ORIENTATION, N_STATES - VELOCITY])
-"""Share of the relative tolerance that holds for each state: the position is the eccentricity."""
 
 
 def journal_of(case: JournalCase) -> Journal:

@@ -8,14 +8,11 @@ from tribodyn.mechanism.workload import workload as of_mechanism
 from tribodyn.mechanisms.workload import Keys, Workload
 from tribodyn.presets.journal.case import JournalCase, mechanism_of
 
-_OF_REBOUND: Final = 35.0
-"""Steps of a rebound, measured with ``journal-dry``: 834 steps in 24 rebounds."""
-_REBOUNDS: Final = 25.0
-"""Rebounds after which damping has ended them."""
-_AT_REST: Final = 2.0
-"""Steps in the time of a rebound after that."""
+_OF_REBOUND: Final = 35.0  #: Steps of a rebound, measured with ``journal-dry``: 834 steps in 24 rebounds.
+_REBOUNDS: Final = 25.0  #: Rebounds after which damping has ended them.
+_AT_REST: Final = 2.0  #: Steps in the time of a rebound after that.
+#: Steps until the journal has settled in the film, and in the time of a rebound after that.
 _IN_OIL: Final = (200.0, 0.1)
-"""Steps until the journal has settled in the film, and in the time of a rebound after that."""
 
 
 def workload(case: JournalCase) -> Workload:

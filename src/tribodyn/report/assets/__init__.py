@@ -8,6 +8,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Final
 
+#: Scripts that draw, in the order in which they run: the same in every page.
 SCRIPTS: Final = (
     "start.js",
     "theme.js",
@@ -26,9 +27,7 @@ SCRIPTS: Final = (
     "linkage.js",
     "choice.js",
 )
-"""Scripts that draw, in the order in which they run: the same in every page."""
-OF_REPORT: Final = ("parallel.js", "run.js")
-"""Scripts of reports alone."""
+OF_REPORT: Final = ("parallel.js", "run.js")  #: Scripts of reports alone.
 
 _POLICY: Final = (
     "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'"
@@ -37,21 +36,11 @@ _POLICY: Final = (
 
 @dataclass(frozen=True)
 class Inside:
-    """Content of a page.
+    """Content of a page."""
 
-    Attributes
-    ----------
-    script
-        Our scripts as one text; empty on a page without live figures.
-    style
-        The style sheet.
-    policy
-        Content security policy of the page: these two are let in, and nothing is fetched.
-    """
-
-    script: str
-    style: str
-    policy: str
+    script: str  #: Our scripts as one text; empty on a page without live figures.
+    style: str  #: The style sheet.
+    policy: str  #: Content security policy of the page: these two are let in, and nothing is fetched.
 
 
 @cache

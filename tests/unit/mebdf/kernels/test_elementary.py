@@ -52,6 +52,7 @@ class Function(NamedTuple):
 
 ANGLES = ((even(-10.0, 10.0),), (scales(-30.0, 1023.0),), (even(-1.0e6, 1.0e6),), (even(-0.07, 0.07),))
 POSITIVE = scales(-300.0, 300.0, signs=(1.0,))
+#: All functions; bounds of the error in units in the last place.
 FUNCTIONS = {
     "sin": Function(ANGLES, "sin"),
     "cos": Function(ANGLES, "cos"),
@@ -82,7 +83,6 @@ FUNCTIONS = {
         "power",
     ),
 }
-"""All functions; bounds of the error in units in the last place."""
 SPECIAL = (0.0, -0.0, 1.0, -1.0, 0.5, -2.0, 3.0, 5e-324, -1e308, math.inf, -math.inf, math.nan)
 
 

@@ -13,13 +13,12 @@ from tribodyn.papers.cheng_2022.runs import CLEARANCES, FORMULATIONS, on_grid
 
 ENDS = (CLEARANCES[0], CLEARANCES[-1])
 COARSE = {"solver.grid.theta": 32, "solver.grid.z": 6}
+#: Each vane on its default grid, which follows the clearance, so that joining has to bring them together.
 RUNS = Runs(clearances=ENDS, changes={"vsv-joints": {**COARSE, "run.cycles": 1}})
-"""Each vane on its default grid, which follows the clearance, so that joining has to bring them together."""
 SAME = Runs(clearances=ENDS, changes={"vsv": COARSE, "vsv-joints": {**COARSE, "run.cycles": 1}})
+#: Just beyond the first reversal, where undamped runs take most of their steps.
 SHORT = Runs(changes={"vsv": {**COARSE, "run.duration": "3.15 s"}})
-"""Just beyond the first reversal, where undamped runs take most of their steps."""
-JOINED = ("fig15", "fig16", "fig17", "fig18", "fig19")
-"""Figures of several clearances or of fields."""
+JOINED = ("fig15", "fig16", "fig17", "fig18", "fig19")  #: Figures of several clearances or of fields.
 
 
 @pytest.mark.parametrize("name", FIGURES)

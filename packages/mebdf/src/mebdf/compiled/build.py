@@ -12,10 +12,11 @@ from mebdf.compiled.kernel import RESULT
 from mebdf.compiled.library import NoMachineCode, level, system
 from mebdf.compiled.platforms import PLATFORMS, Platform
 
+#: Symbol of a function, kinds of its arguments, kind of its result.
 Described = tuple[str, tuple[str, ...], str]
-"""Symbol of a function, kinds of its arguments, kind of its result."""
-ALLOWED: Final = {"memset", "memcpy", "memmove"}
-"""Functions that machine code may take from the system."""
+ALLOWED: Final = {"memset", "memcpy", "memmove"}  #: Functions that machine code may take from the system.
+#: Functions that kernels take from numba's runtime: the square root is an instruction, no array owns memory,
+#: and a new shape is new strides, for all arrays are contiguous.
 _RUNTIME: Final = """
 declare double @llvm.sqrt.f64(double)
 define linkonce_odr double @sqrt(double %x) {
@@ -48,8 +49,6 @@ end:
   ret i32 1
 }
 """  # noqa: E501
-"""Functions that kernels take from numba's runtime: the square root is an instruction, no array owns
-memory, and a new shape is new strides, for all arrays are contiguous."""
 
 
 @cache
@@ -151,8 +150,7 @@ def optimised(text: str, platform: Platform, level: str) -> tuple[Any, Any]:
     return module, target
 
 
-_engines: Final[list[Any]] = []
-"""Machine code made in this process, which lasts as long as it."""
+_engines: Final[list[Any]] = []  #: Machine code made in this process, which lasts as long as it.
 
 
 def address(module: Any, name: str) -> int:

@@ -46,8 +46,7 @@ __all__ = [
     "signature",
     "types",
 ]
-_TESTED: Final = (0, 68)
-"""Version of numba whose private names are used here."""
+_TESTED: Final = (0, 68)  #: Version of numba whose private names are used here.
 _BEGINNING: Final = 160
 
 

@@ -23,23 +23,20 @@ import numpy as np
 from mebdf.compiled.layouts import Layouts, annotated, digest, layout_of
 from mebdf.compiled.library import NoMachineCode, Sources, library
 
+#: Whether kernels run as Python.
 UNCOMPILED: Final = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
-"""Whether kernels run as Python."""
-RESULT: Final = 8
-"""Words at the beginning of a call that take the result."""
-RETURNED: Final = (0, -2)
-"""Values that compiled code returns where it raised nothing."""
-ENTRIES: Final[dict[str, Kernel]] = {}
-"""All entries of the modules that are imported, by their names."""
+RESULT: Final = 8  #: Words at the beginning of a call that take the result.
+RETURNED: Final = (0, -2)  #: Values that compiled code returns where it raised nothing.
+ENTRIES: Final[dict[str, Kernel]] = {}  #: All entries of the modules that are imported, by their names.
 
 
+#: Ways to read a result, by its kind.
 _READ: Final[dict[str, Callable[[Any, int], Any]]] = {
     "none": lambda words, place: None,
     "int64": lambda words, place: words[place],
     "bool": lambda words, place: bool(words[place] & 1),
     "float64": lambda words, place: ctypes.c_double.from_buffer(words, 8 * place).value,
 }
-"""Ways to read a result, by its kind."""
 
 
 class CompiledForm:
@@ -172,17 +169,10 @@ class Kernel:
 
 @dataclass(frozen=True)
 class Instruction:
-    """A function that is an instruction in compiled code.
+    """A function that is an instruction in compiled code."""
 
-    Attributes
-    ----------
-    uncompiled
-        The same in Python.
-    module, name
-        Where its code generator is, which needs numba; behind an underscore.
-    """
-
-    uncompiled: Callable[..., Any]
+    uncompiled: Callable[..., Any]  #: The same in Python.
+    #: Where its code generator is, which needs numba; behind an underscore.
     module: str
     name: str
 
@@ -213,21 +203,12 @@ def entries(sources: Sources) -> list[Kernel]:
 
 
 class Decorators(NamedTuple):
-    """Decorators of the functions that a package compiles.
+    """Decorators of the functions that a package compiles."""
 
-    Attributes
-    ----------
-    entry
-        A function that Python calls, which may be decorated as ``inlined`` before.
-    kernel
-        Any other function.
-    inlined
-        As ``kernel``, for a few lines in a loop, and for levels that only pass arguments on: numba compiles
-        into each function all that it calls, again at every level.
-    """
-
-    entry: Any
-    kernel: Any
+    entry: Any  #: A function that Python calls, which may be decorated as ``inlined`` before.
+    kernel: Any  #: Any other function.
+    #: As ``kernel``, for a few lines in a loop, and for levels that only pass arguments on: numba compiles
+    #: into each function all that it calls, again at every level.
     inlined: Any
 
 

@@ -17,10 +17,10 @@ from typing import Annotated, Any, Final, TypeAlias
 
 import numpy as np
 
+#: Words of an array beside those of its dimensions: two owners, number and size of its entries, address.
 ARRAY: Final = 5
-"""Words of an array beside those of its dimensions: two owners, number and size of its entries, address."""
+#: Annotation of a named tuple whose arrays have one dimension more; records and numbers are arrays.
 STACKED: Final = 1
-"""Annotation of a named tuple whose arrays have one dimension more; records and numbers are arrays."""
 
 
 @dataclass(frozen=True)

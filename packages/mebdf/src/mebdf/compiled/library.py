@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import Any, Final
 
 MANIFEST: Final = "manifest.json"
+#: Levels of processors for which code is made, the best first, and what the processor must be able to do.
 LEVELS: Final = {
     "v3": {"avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"},
     "baseline": {"cx16", "popcnt", "sse4_1", "sse4_2", "ssse3"},
 }
-"""Levels of processors for which code is made, the best first, and what the processor must be able to do."""
 _CPU: Final = Path("/proc/cpuinfo")
 
 
@@ -29,23 +29,13 @@ class NoMachineCode(ImportError):
 
 @dataclass(frozen=True)
 class Sources:
-    """The files of a package that its machine code is made from.
+    """The files of a package that its machine code is made from."""
 
-    Attributes
-    ----------
-    package
-        Folder of the package.
-    patterns
-        Which files, as :meth:`pathlib.Path.glob` takes them, relative to ``package``.
-    listing
-        Packages of which every module is imported to know all entries.
-    below
-        Sources of other packages whose kernels are compiled into those of this one.
-    """
-
-    package: Path
+    package: Path  #: Folder of the package.
+    #: Which files, as :meth:`pathlib.Path.glob` takes them, relative to ``package``.
     patterns: tuple[str, ...]
-    listing: tuple[str, ...]
+    listing: tuple[str, ...]  #: Packages of which every module is imported to know all entries.
+    #: Sources of other packages whose kernels are compiled into those of this one.
     below: tuple[Sources, ...] = ()
 
     @property

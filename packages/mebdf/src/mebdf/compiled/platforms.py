@@ -4,29 +4,17 @@ from typing import Final, NamedTuple
 
 
 class Platform(NamedTuple):
-    """An operating system on a machine.
+    """An operating system on a machine."""
 
-    Attributes
-    ----------
-    triple
-        Its name for LLVM.
-    processors
-        Processors that code is made for, by levels. Features are none: numba would add those of this one.
-    linker
-        Its name for a linker that makes libraries of other systems.
-    tag
-        What names of wheels end with. Any Python: the library is called by its addresses.
-    flags
-        Options of the linker.
-    """
-
-    triple: str
+    triple: str  #: Its name for LLVM.
+    #: Processors that code is made for, by levels. Features are none: numba would add those of this one.
     processors: dict[str, str]
-    linker: str
-    tag: str
-    flags: tuple[str, ...] = ("-nostdlib",)
+    linker: str  #: Its name for a linker that makes libraries of other systems.
+    tag: str  #: What names of wheels end with. Any Python: the library is called by its addresses.
+    flags: tuple[str, ...] = ("-nostdlib",)  #: Options of the linker.
 
 
+#: By the names that Python gives system and machine.
 PLATFORMS: Final = {
     "linux-x86_64": Platform(
         "x86_64-unknown-linux-gnu",
@@ -51,4 +39,3 @@ PLATFORMS: Final = {
         "x86_64-pc-windows-gnu", {"baseline": "x86-64-v2"}, "x86_64-windows-gnu", "py3-none-win_amd64", ()
     ),
 }
-"""By the names that Python gives system and machine."""

@@ -24,23 +24,17 @@ OPEN: Final = 0
 FALSE: Final = -1
 IN_DOUBT: Final = 2
 
-PROVED: Final = 0.5
-"""Share of the residual that a correction must leave, at most, to prove the Jacobian."""
-REFUTED: Final = 0.9
-"""Share that it leaves, at least, where the Jacobian is wrong."""
+PROVED: Final = 0.5  #: Share of the residual that a correction must leave, at most, to prove the Jacobian.
+REFUTED: Final = 0.9  #: Share that it leaves, at least, where the Jacobian is wrong.
+#: Residual that needs no proof, at most, relative to the largest one that the Jacobian was seen to remove.
 TRUSTED: Final = 10.0
-"""Residual that needs no proof, at most, relative to the largest one that the Jacobian was seen to remove."""
+#: Share of the trust to which a residual must have been reduced: beside a jump the Jacobian may by chance
+#: lead to a smaller one on its other side, and no further.
 REACHED: Final = 1.0e-2
-"""Share of the trust to which a residual must have been reduced: beside a jump the Jacobian may by chance
-lead to a smaller one on its other side, and no further."""
-NOTHING: Final = 1.0e-3
-"""Residual in units of the tolerance that never needs a proof."""
-HARMLESS: Final = 0.1
-"""Residual in units of the tolerance that may be left below rounding."""
-NOISE: Final = 10.0 * float(np.finfo(np.float64).eps)
-"""Rounding of the residual relative to its terms."""
-ABOVE_NOISE: Final = 10.0
-"""Least change of the residual by a magnified correction, over rounding."""
+NOTHING: Final = 1.0e-3  #: Residual in units of the tolerance that never needs a proof.
+HARMLESS: Final = 0.1  #: Residual in units of the tolerance that may be left below rounding.
+NOISE: Final = 10.0 * float(np.finfo(np.float64).eps)  #: Rounding of the residual relative to its terms.
+ABOVE_NOISE: Final = 10.0  #: Least change of the residual by a magnified correction, over rounding.
 
 
 @inlined

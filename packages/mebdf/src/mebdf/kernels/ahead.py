@@ -17,25 +17,18 @@ from mebdf.kernels.state import MebdfState
 
 FUN: Final = 0
 JAC: Final = 1
-IN_PYTHON: Final = 0
-"""Address of a function that the caller evaluates."""
-BY_DIFFERENCES: Final = 1
-"""Address in the place of that of the Jacobian."""
+IN_PYTHON: Final = 0  #: Address of a function that the caller evaluates.
+BY_DIFFERENCES: Final = 1  #: Address in the place of that of the Jacobian.
 
+#: Jacobian that is compared with differences after the first, then at twice as many, and so on.
 FIRST: Final = 32
-"""Jacobian that is compared with differences after the first, then at twice as many, and so on."""
 
 # Rows of ``Calls.work``.
-AT: Final = 0
-"""State that a function is given: it may write there."""
-SHARE: Final = 1
-"""Move of each variable in differences, as a share of its size."""
-TYPICAL: Final = 2
-"""Size below which that of a variable does not shrink its move."""
-ALGEBRAIC: Final = 3
-"""1 for an equation without derivatives, whose terms cancel."""
-TERMS: Final = 4
-"""Sizes of these terms by the last Jacobian."""
+AT: Final = 0  #: State that a function is given: it may write there.
+SHARE: Final = 1  #: Move of each variable in differences, as a share of its size.
+TYPICAL: Final = 2  #: Size below which that of a variable does not shrink its move.
+ALGEBRAIC: Final = 3  #: 1 for an equation without derivatives, whose terms cancel.
+TERMS: Final = 4  #: Sizes of these terms by the last Jacobian.
 RATE: Final = 5
 MOVED: Final = 6
 FURTHER: Final = 7
@@ -43,18 +36,15 @@ N_WORK: Final = 8
 
 # Columns of ``Calls.counts``.
 DEGREE: Final = 0
+#: Degree of the polynomial of the step, then evaluations, Jacobians and decompositions so far.
 N_COUNTS: Final = 4
-"""Degree of the polynomial of the step, then evaluations, Jacobians and decompositions so far."""
 
 # Roundings to the powers 7/8, 3/4, 1/4 and 1/2.
+#: Change of a rate, relative to it, below which a variable is moved further at once: it is all rounding.
 LOST: Final = float.fromhex("0x1.6a09e667f3bcdp-46")
-"""Change of a rate, relative to it, below which a variable is moved further at once: it is all rounding."""
-SMALL: Final = 2.0**-39
-"""Such a change below which it is moved further the next time."""
-LARGE: Final = 2.0**-13
-"""Such a change above which it is moved less the next time."""
-STRIDE: Final = 10.0
-"""Factor of a longer and of a shorter move."""
+SMALL: Final = 2.0**-39  #: Such a change below which it is moved further the next time.
+LARGE: Final = 2.0**-13  #: Such a change above which it is moved less the next time.
+STRIDE: Final = 10.0  #: Factor of a longer and of a shorter move.
 LEAST: Final = 2.0**-26
 """Shortest move relative to the size of a variable: rounding is the larger error of a shorter one.
 
@@ -63,34 +53,17 @@ Where large rates cancel, a move that is right changes their sum by much.
 
 
 class Calls(NamedTuple):
-    """Functions of a user, and the steps taken with them.
+    """Functions of a user, and the steps taken with them."""
 
-    Attributes
-    ----------
-    functions
-        Addresses of ``fun`` and ``jac``, see above, shape (2,).
-    data
-        Numbers that the functions are given.
-    kink
-        Time of the breakpoint that the integration leads to, infinite if to none, and the last time before,
-        shape (2,).
-    work
-        Rows named above, shape (N_WORK, n).
-    ends
-        Time and signed size of each step, shape (m, 2).
-    counts
-        Columns named above, shape (m, N_COUNTS).
-    differences
-        Backward differences at the end of each step, shape (m, N_DIFFERENCES, n).
-    """
-
-    functions: IntArray
-    data: FloatArray
+    functions: IntArray  #: Addresses of ``fun`` and ``jac``, see above, shape (2,).
+    data: FloatArray  #: Numbers that the functions are given.
+    #: Time of the breakpoint that the integration leads to, infinite if to none, and the last time before,
+    #: shape (2,).
     kink: FloatArray
-    work: FloatMatrix
-    ends: FloatMatrix
-    counts: IntMatrix
-    differences: FloatCube
+    work: FloatMatrix  #: Rows named above, shape (N_WORK, n).
+    ends: FloatMatrix  #: Time and signed size of each step, shape (m, 2).
+    counts: IntMatrix  #: Columns named above, shape (m, N_COUNTS).
+    differences: FloatCube  #: Backward differences at the end of each step, shape (m, N_DIFFERENCES, n).
 
 
 SIGNATURE: Final = ctypes.CFUNCTYPE(None, ctypes.c_double, *(ctypes.c_void_p,) * 3)

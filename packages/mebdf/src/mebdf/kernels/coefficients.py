@@ -10,6 +10,7 @@ import numpy as np
 
 MAX_K: Final = 7
 
+#: β = 1/H_k, b_0, b_1, and the error constant 1/((k + 1) H_k) of the BDF of stage 1; shape (k, 4).
 SCALARS: Final = np.array(
     [
         [0.0, 0.0, 0.0, 0.0],
@@ -22,8 +23,8 @@ SCALARS: Final = np.array(
         [140 / 363, 106540 / 208903, -4900 / 208903, 35 / 726],
     ]
 )
-"""β = 1/H_k, b_0, b_1, and the error constant 1/((k + 1) H_k) of the BDF of stage 1; shape (k, 4)."""
 
+#: 1 − H_i/H_k: weights of ∇^i y_n in stages 1 and 2, shape (k, MAX_K).
 BDF_HISTORY: Final = np.array(
     [
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -36,8 +37,8 @@ BDF_HISTORY: Final = np.array(
         [1.0, 223 / 363, 51 / 121, 29 / 99, 214 / 1089, 130 / 1089, 20 / 363],
     ]
 )
-"""1 − H_i/H_k: weights of ∇^i y_n in stages 1 and 2, shape (k, MAX_K)."""
 
+#: 1 − Σ_(m≤i) (b_0/m + b_1 H_m): weights of ∇^i y_n in stage 3, shape (k, MAX_K).
 EXTENDED_HISTORY: Final = np.array(
     [
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -50,4 +51,3 @@ EXTENDED_HISTORY: Final = np.array(
         [1.0, 107263 / 208903, 61343 / 208903, 34813 / 208903, 55159 / 626709, 24800 / 626709, 2515 / 208903],
     ]
 )
-"""1 − Σ_(m≤i) (b_0/m + b_1 H_m): weights of ∇^i y_n in stage 3, shape (k, MAX_K)."""

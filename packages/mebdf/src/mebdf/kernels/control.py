@@ -15,20 +15,15 @@ from mebdf.kernels.mass import weigh
 from mebdf.kernels.phases import ERROR_TEST, NEWTON, STEP
 from mebdf.kernels.state import Numbers
 
-SMALLEST_SCALE = 1.0e-300
-"""Least scale, for a tolerance of zero where the solution is zero too."""
-CAUTION = 1
-"""Steps that must prove their stages after Newton's iteration has failed."""
-MOST_CAUTION = 7
-"""Most of them when it fails again meanwhile."""
-LEAST_STEP = 10.0 * float(np.finfo(np.float64).eps)
-"""Smallest step relative to the time."""
+SMALLEST_SCALE = 1.0e-300  #: Least scale, for a tolerance of zero where the solution is zero too.
+CAUTION = 1  #: Steps that must prove their stages after Newton's iteration has failed.
+MOST_CAUTION = 7  #: Most of them when it fails again meanwhile.
+LEAST_STEP = 10.0 * float(np.finfo(np.float64).eps)  #: Smallest step relative to the time.
+#: Relative change of a step by the rounding of the time above which the step itself is rounded.
 ROUNDED = 1.0e-8
-"""Relative change of a step by the rounding of the time above which the step itself is rounded."""
-VAIN = 4
-"""Trouble by a failure of Newton's iteration with a new Jacobian; a step takes one away."""
+VAIN = 4  #: Trouble by a failure of Newton's iteration with a new Jacobian; a step takes one away.
+#: Trouble in which a stage looks between two values. More there is only after a stage has ended there.
 TROUBLE = 3 * VAIN
-"""Trouble in which a stage looks between two values. More there is only after a stage has ended there."""
 
 
 @inlined

@@ -57,14 +57,12 @@ from mebdf.kernels.renewal import begin_stages, renew_matrix, take_over
 from mebdf.kernels.start import start
 from mebdf.kernels.state import NUMBERS, Numbers
 
+#: Failures of Newton's iteration with a new Jacobian after which the progress is looked at.
 MOST_VAIN: Final = 100
-"""Failures of Newton's iteration with a new Jacobian after which the progress is looked at."""
+#: Share of the time, past or remaining, that must have been covered meanwhile: else some 1e8 would follow.
 LEAST_PROGRESS: Final = 1.0e-6
-"""Share of the time, past or remaining, that must have been covered meanwhile: else some 1e8 would follow."""
-MOST_CALLS: Final = 8000
-"""Evaluations, with such a failure among them, after which it is looked at, too."""
-ROUNDING: Final = 1.0e-10
-"""Distance from the end, in steps, that is none."""
+MOST_CALLS: Final = 8000  #: Evaluations, with such a failure among them, after which it is looked at, too.
+ROUNDING: Final = 1.0e-10  #: Distance from the end, in steps, that is none.
 
 
 @entry

@@ -6,9 +6,9 @@ from typing import Final
 from mebdf.compiled.kernel import decorators
 from mebdf.compiled.library import Sources
 
+#: Sources of the solver's machine code.
 SOURCES: Final = Sources(
     Path(__file__).parents[1], ("kernels/**/*.py", "compiled/*.py", "arrays.py"), listing=("mebdf.kernels",)
 )
-"""Sources of the solver's machine code."""
 
 entry, kernel, inlined = decorators(SOURCES)

@@ -14,8 +14,7 @@ from mebdf.kernels.elementary import power
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.state import ERROR_WEIGHT, POWER, ROW_WEIGHT, TESTED, WEIGHT, Y
 
-SMALLEST: Final = 1.0e-300
-"""Weight of a variable of higher index before there is a step."""
+SMALLEST: Final = 1.0e-300  #: Weight of a variable of higher index before there is a step.
 
 
 @inlined

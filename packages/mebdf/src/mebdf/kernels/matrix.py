@@ -10,8 +10,8 @@ from mebdf.kernels import state as at
 from mebdf.kernels.jit import kernel
 from mebdf.kernels.mass import is_algebraic, magnitude_of_mass
 
+#: Number of equations up to which the inverse is used: a product has no chain of divisions.
 LARGEST_INVERSE: Final = 24
-"""Number of equations up to which the inverse is used: a product has no chain of divisions."""
 
 
 @kernel

@@ -44,12 +44,10 @@ from mebdf.kernels.turning import MIXED, TOO_FAR, WATCHED, begin_near, judge_mix
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0
-DIVERGED: Final = -2
-"""A verdict on a stage beside those of :mod:`.acceptance`."""
+DIVERGED: Final = -2  #: A verdict on a stage beside those of :mod:`.acceptance`.
+#: Failures in a row after which an error may be that of the algebraic values which the step starts from.
 LATE: Final = 5
-"""Failures in a row after which an error may be that of the algebraic values which the step starts from."""
-FORGIVEN: Final = 10.0
-"""Most that such values may be wrong, in units of the tolerance."""
+FORGIVEN: Final = 10.0  #: Most that such values may be wrong, in units of the tolerance.
 
 
 @inlined

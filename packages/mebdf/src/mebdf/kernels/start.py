@@ -13,8 +13,8 @@ from mebdf.kernels.jit import kernel
 from mebdf.kernels.phases import BEGIN, FAILED, FIRST_F, NEED_F, NOT_FINITE, SECOND_F, STEP
 from mebdf.kernels.state import Numbers
 
+#: Shortest first step relative to the time: 16 or more spacings between numbers.
 SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
-"""Shortest first step relative to the time: 16 or more spacings between numbers."""
 
 
 @kernel

@@ -33,30 +33,25 @@ MIXED: Final = 2
 GONE: Final = 3
 TOO_FAR: Final = 4
 
-WATCHED: Final = TROUBLE + 30
-"""Trouble after a stage that was solved so."""
+WATCHED: Final = TROUBLE + 30  #: Trouble after a stage that was solved so.
+#: Share of the residual that a correction leaves, at least, where Newton's iteration is not left alone.
 SLOW: Final = 0.5
-"""Share of the residual that a correction leaves, at least, where Newton's iteration is not left alone."""
+#: Such a share above which the Jacobian is wrong, unless a stage has ended between two values before.
 WILD: Final = 10.0
-"""Such a share above which the Jacobian is wrong, unless a stage has ended between two values before."""
+#: Distance, in units of the tolerance, at which the values are not told apart. The mixture lies between them,
+#: so that its error is less. With .1 power laws take 10 % less calls, switches of width 1e-10 a third more.
 NARROW: Final = 0.03
-"""Distance, in units of the tolerance, at which the values are not told apart. The mixture lies between them,
-so that its error is less. With .1 power laws take 10 % less calls, switches of width 1e-10 a third more."""
+#: Most halvings in one stage: more than lead from any step to the rounding of its values.
 MOST_HALVINGS: Final = 60
-"""Most halvings in one stage: more than lead from any step to the rounding of its values."""
+#: Length of a first correction after a step that has ended between two values, in units of the tolerance.
 NEAR: Final = 1.0
-"""Length of a first correction after a step that has ended between two values, in units of the tolerance."""
+#: Residual of the mixture, in units of the tolerance, up to which its correction needs no proof.
 LEFT: Final = 1.0
-"""Residual of the mixture, in units of the tolerance, up to which its correction needs no proof."""
-FARTHER: Final = 8.0
-"""Distance of the next value over that of a correction that leaves its residual."""
-FARTHEST: Final = 10.0
-"""Largest of these corrections, in units of the tolerance."""
+FARTHER: Final = 8.0  #: Distance of the next value over that of a correction that leaves its residual.
+FARTHEST: Final = 10.0  #: Largest of these corrections, in units of the tolerance.
 
-FAR_RESIDUAL: Final = at.SCRATCH + 1
-"""Row of the residual at the other value."""
-LAST_RESIDUAL: Final = at.SCRATCH + 2
-"""Row of the residual before the last change of the value."""
+FAR_RESIDUAL: Final = at.SCRATCH + 1  #: Row of the residual at the other value.
+LAST_RESIDUAL: Final = at.SCRATCH + 2  #: Row of the residual before the last change of the value.
 
 
 @inlined

@@ -36,14 +36,12 @@ from tribodyn.kernels.lanes import (
 )
 
 FIRST: Final = 0 * WIDTH
-NUMBER: Final = 1 * WIDTH
-"""First group and number of groups that can be in contact, see ``windows``."""
+NUMBER: Final = 1 * WIDTH  #: First group and number of groups that can be in contact, see ``windows``.
 NEARING: Final = 2 * WIDTH
+#: Gap as drawn and approach speed: a, b, c, d and e of a + b cos θ + c sin θ + d cos² θ + e cos θ sin θ.
 APPROACHING: Final = 7 * WIDTH
-"""Gap as drawn and approach speed: a, b, c, d and e of a + b cos θ + c sin θ + d cos² θ + e cos θ sin θ."""
 AROUND: Final = 12 * WIDTH
-ALONG: Final = 15 * WIDTH
-"""Slips around and along: a, b and c."""
+ALONG: Final = 15 * WIDTH  #: Slips around and along: a, b and c.
 
 
 @inlined
@@ -138,8 +136,8 @@ def fill_motion(data: SurfaceData, surface: Record, memory: SurfaceMemory, stati
     )
 
 
+#: Angle by which the window is wider than need be [rad], above the errors of both approximations below.
 MARGIN: Final = 2.0e-4
-"""Angle by which the window is wider than need be [rad], above the errors of both approximations below."""
 
 
 @inlined

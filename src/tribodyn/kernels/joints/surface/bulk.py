@@ -33,31 +33,24 @@ from tribodyn.kernels.lanes import WIDTH, above, floor, load, spread, square_roo
 RING: Final = 0.0
 RACE: Final = 1.0
 HOLE: Final = 2.0
+#: Extents of a contact: an arc of its ring, a cap of a ball in a race, below a ball in a bore, constant.
 FACE: Final = 3.0
-"""Extents of a contact: an arc of its ring, a cap of a ball in a race, below a ball in a bore, constant."""
+#: κ: stiffness per area of Hertz's line contact, times its half width, over E.
 KAPPA: Final = 3.0 * math.pi / 8.0
-"""κ: stiffness per area of Hertz's line contact, times its half width, over E."""
+#: The same of Hertz's circle, (16/3π)/κ, squared.
 CAP: Final = 2.0 * (64.0 / (9.0 * math.sqrt(2.0) * math.pi**2)) ** 2
-"""The same of Hertz's circle, (16/3π)/κ, squared."""
-ROUNDING: Final = 2.0
-"""D₀: overlap of two rough circles that touch, over σ."""
-ARC: Final = (1.0 / KAPPA, 0.6883, -5.144, 9.262, -6.556)
-"""a₀, a₁, …, fitted from 2° to 75°."""
-WIDEST: Final = 0.75
-"""Largest y: the load of a pin has no bound near 0.83."""
+ROUNDING: Final = 2.0  #: D₀: overlap of two rough circles that touch, over σ.
+ARC: Final = (1.0 / KAPPA, 0.6883, -5.144, 9.262, -6.556)  #: a₀, a₁, …, fitted from 2° to 75°.
+WIDEST: Final = 0.75  #: Largest y: the load of a pin has no bound near 0.83.
+#: Share by which the largest pressure of a foundation exceeds that of elastic bodies under the same load.
 OVERRATED: Final = 0.17
-"""Share by which the largest pressure of a foundation exceeds that of elastic bodies under the same load."""
 
-LEAST_SQUARE: Final = 1.0e-30
-"""Square of an eccentricity [m²], in the place of zero."""
+LEAST_SQUARE: Final = 1.0e-30  #: Square of an eccentricity [m²], in the place of zero.
 
 LEVEL: Final = 18 * WIDTH
-SHARE: Final = 19 * WIDTH
-"""Of each ring of the block: the level below q, and the rest of q."""
-CHANGE: Final = 20 * WIDTH
-"""dq/dt [1/s]."""
-SLOPE: Final = 21 * WIDTH
-"""Derivatives of q in d_x, d_y, d_z [1/m], φ_x and φ_y [1/rad]."""
+SHARE: Final = 19 * WIDTH  #: Of each ring of the block: the level below q, and the rest of q.
+CHANGE: Final = 20 * WIDTH  #: dq/dt [1/s].
+SLOPE: Final = 21 * WIDTH  #: Derivatives of q in d_x, d_y, d_z [1/m], φ_x and φ_y [1/rad].
 
 
 @kernel

@@ -11,22 +11,20 @@ POSITION: Final = 0
 NORMAL: Final = 3
 AREA: Final = 6
 GAP: Final = 7
-N_NODE: Final = 8
-"""Rows of the array of nodes: x_k [m], n_k, A_k [m²], and h0_k with wear [m]."""
+N_NODE: Final = 8  #: Rows of the array of nodes: x_k [m], n_k, A_k [m²], and h0_k with wear [m].
 
 COS: Final = 0
 SIN: Final = 1
 LIFT: Final = 2
+#: Rows of the table of angles of rings: cos θ, sin θ, and what ``ring`` adds to the gap [m].
 N_ANGLE: Final = 3
-"""Rows of the table of angles of rings: cos θ, sin θ, and what ``ring`` adds to the gap [m]."""
 
 N_RADIAL, N_AXIAL, ARM, RADIUS, HEIGHT, LEAST, NODE_AREA, COUNT = range(8)
+#: Rows of the array of rings: n_r, n_z, arm, radius, height and least gap [m], area of a node [m²], and
+#: number of nodes; what stands there for a patch means nothing.
 N_RING: Final = 8
-"""Rows of the array of rings: n_r, n_z, arm, radius, height and least gap [m], area of a node [m²], and
-number of nodes; what stands there for a patch means nothing."""
 
-N_POINTS: Final = 2
-"""Most points of a point contact."""
+N_POINTS: Final = 2  #: Most points of a point contact.
 
 Surface: Final = record_type(
     *((name, "i8") for name in ("first_row", "last_row", "first_node", "last_node")),
@@ -111,33 +109,19 @@ normal, moment, spread
 
 
 class SurfaceData(NamedTuple):
-    """All clearance joints of a mechanism.
+    """All clearance joints of a mechanism."""
 
-    Attributes
-    ----------
-    joints
-        Surfaces of joint j are those from ``joints[j]`` up to, not including, ``joints[j + 1]``, shape
-        (n_joints + 1,).
-    surfaces
-        Records :data:`Surface`, shape (n_surfaces,).
-    rows
-        Records :data:`Row`, shape (n_rows,).
-    nodes
-        Shape (``N_NODE``, n_nodes).
-    angles
-        Cosines, sines and ``LIFT`` of the angles of rings, see ``ring``, shape (``N_ANGLE``, n_angles).
-    rings
-        What the nodes of a row share, and empty rows behind, shape (``N_RING``, n_rows + 3).
-    table_nodes, energy, cubics
-        The arrays of all contact tables, one after the other.
-    """
-
+    #: Surfaces of joint j are those from ``joints[j]`` up to, not including, ``joints[j + 1]``, shape
+    #: (n_joints + 1,).
     joints: IntArray
-    surfaces: Annotated[Record, Surface, 1]
-    rows: Annotated[Record, Row, 1]
-    nodes: FloatMatrix
+    surfaces: Annotated[Record, Surface, 1]  #: Records :data:`Surface`, shape (n_surfaces,).
+    rows: Annotated[Record, Row, 1]  #: Records :data:`Row`, shape (n_rows,).
+    nodes: FloatMatrix  #: Shape (``N_NODE``, n_nodes).
+    #: Cosines, sines and ``LIFT`` of the angles of rings, see ``ring``, shape (``N_ANGLE``, n_angles).
     angles: FloatMatrix
+    #: What the nodes of a row share, and empty rows behind, shape (``N_RING``, n_rows + 3).
     rings: FloatMatrix
+    #: The arrays of all contact tables, one after the other.
     table_nodes: FloatMatrix
     energy: FloatArray
     cubics: FloatArray

@@ -28,10 +28,10 @@ from tribodyn.kernels.joints.surface.ring import (
 )
 from tribodyn.kernels.lanes import above, entries_at, load, rows_at, spread, store, zeros
 
+#: ∂/∂q of the pressure [Pa], or in reports of the energy over σ, behind which the ratio is not needed.
 WIDENING: Final = RATIO
-"""∂/∂q of the pressure [Pa], or in reports of the energy over σ, behind which the ratio is not needed."""
+#: Of reports: the pressure that an elastic body has where the foundation's is largest [Pa].
 PEAK: Final = FRACTION
-"""Of reports: the pressure that an elastic body has where the foundation's is largest [Pa]."""
 
 
 @kernel

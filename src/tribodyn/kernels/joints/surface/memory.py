@@ -23,27 +23,20 @@ from tribodyn.kernels.joints.surface.station import Station
 from tribodyn.kernels.joints.surface.tilt import Tilt
 from tribodyn.kernels.lanes import WIDTH
 
-BLOCK_GROUPS: Final = 26 * WIDTH
-"""Begins of the groups of the block."""
-COLUMNS: Final = 12
-"""Lanes of a group."""
-N_SUMS: Final = 105
-"""Sums over the nodes of a ring for derivatives, see ``ring_slopes``."""
+BLOCK_GROUPS: Final = 26 * WIDTH  #: Begins of the groups of the block.
+COLUMNS: Final = 12  #: Lanes of a group.
+N_SUMS: Final = 105  #: Sums over the nodes of a ring for derivatives, see ``ring_slopes``.
 
-SHARE: Final = 6
-"""Sliding speed over that of the tractions, at the last report; before it U [m] and [rad]."""
-RATE: Final = 7
-"""1/τ [1/s], 0 without friction at rest."""
+SHARE: Final = 6  #: Sliding speed over that of the tractions, at the last report; before it U [m] and [rad].
+RATE: Final = 7  #: 1/τ [1/s], 0 without friction at rest.
 DEPTH: Final = 8
+#: Distance of the nodes from the origin of the shaft along the normal, and as a root of mean squares [m].
 LEVER: Final = 9
-"""Distance of the nodes from the origin of the shaft along the normal, and as a root of mean squares [m]."""
-LARGEST: Final = 10
-"""Bound of U [m]."""
-N_STRAIN: Final = 11
-"""Numbers of a surface."""
+LARGEST: Final = 10  #: Bound of U [m].
+N_STRAIN: Final = 11  #: Numbers of a surface.
 KNOWN: Final = 12
+#: Numbers of a joint: displacement and rotation of the shaft at the last accepted step, and 1 with one.
 N_ANCHOR: Final = 13
-"""Numbers of a joint: displacement and rotation of the shaft at the last accepted step, and 1 with one."""
 
 Scratch: Final = record_type(
     ("pose", Pose),
@@ -83,48 +76,30 @@ moving, strained
 
 
 class SurfaceMemory(NamedTuple):
-    """The memory of all clearance joints of a mechanism.
+    """The memory of all clearance joints of a mechanism."""
 
-    Attributes
-    ----------
-    entry_velocity
-        δ̇₋ at the nodes [m/s], shape (n_nodes,); 0 where there is no contact. A point contact keeps its own
-        at the first nodes of its surface.
-    remembering
-        Whether any node of a row has one, shape (n_rows,).
-    sliding_load
-        ∫P_c |s| dt [N/m], shape (n_nodes,).
-    sliding
-        P_c |s| of the last report [W/m²] at the nodes within reach, each surface from its first node on; of
-        rings as ``ring_report.first_kept`` says.
-    reached
-        First group and number of groups of each ring that it belongs to, shape (n_rows, 2).
-    touched, n_touched
-        Nodes of patches that it belongs to, shape (n_nodes,), and their number, shape (n_surfaces,).
-    reports, peaks
-        Of each surface, see ``quantities``, shape (n_surfaces,).
-    strains, anchors
-        Of friction that holds at rest, shapes (n_surfaces, ``N_STRAIN``) and
-        (n_joints, ``N_ANCHOR``).
-    block
-        Four rings and the groups of their nodes, see ``block`` and ``ring``; work, as ``scratch`` is.
-    scratch
-        See :data:`Scratch`.
-    """
-
+    #: δ̇₋ at the nodes [m/s], shape (n_nodes,); 0 where there is no contact. A point contact keeps its own at
+    #: the first nodes of its surface.
     entry_velocity: FloatArray
-    remembering: FloatArray
-    sliding_load: FloatArray
+    remembering: FloatArray  #: Whether any node of a row has one, shape (n_rows,).
+    sliding_load: FloatArray  #: ∫P_c |s| dt [N/m], shape (n_nodes,).
+    #: P_c |s| of the last report [W/m²] at the nodes within reach, each surface from its first node on; of
+    #: rings as ``ring_report.first_kept`` says.
     sliding: FloatArray
+    #: First group and number of groups of each ring that it belongs to, shape (n_rows, 2).
     reached: IntMatrix
+    #: Nodes of patches that it belongs to, shape (n_nodes,), and their number, shape (n_surfaces,).
     touched: IntArray
     n_touched: IntArray
+    #: Of each surface, see ``quantities``, shape (n_surfaces,).
     reports: Annotated[Record, Report, 1]
     peaks: Annotated[Record, Peaks, 1]
+    #: Of friction that holds at rest, shapes (n_surfaces, ``N_STRAIN``) and (n_joints, ``N_ANCHOR``).
     strains: FloatMatrix
     anchors: FloatMatrix
+    #: Four rings and the groups of their nodes, see ``block`` and ``ring``; work, as ``scratch`` is.
     block: FloatArray
-    scratch: Annotated[Record, Scratch]
+    scratch: Annotated[Record, Scratch]  #: See :data:`Scratch`.
 
 
 def _block_size(rows: Record) -> int:

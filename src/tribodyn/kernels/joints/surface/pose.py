@@ -31,5 +31,5 @@ opening, v_opening
     What temperatures have added to the radial clearance and to the play along the axis [m], and the rates.
 """
 
+#: First column of the small rotation in the derivative; for the others see ``joints/pose.py``.
 TURN: Final = 3
-"""First column of the small rotation in the derivative; for the others see ``joints/pose.py``."""

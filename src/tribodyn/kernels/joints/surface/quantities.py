@@ -16,6 +16,7 @@ def _wrench(force: str, moment: str, meaning: str) -> tuple[Quantity, ...]:
     )
 
 
+#: The report of an instant.
 REPORTED: Final = (
     *_wrench("F_c", "M_c", "normal contact force"),
     *_wrench("F_k", "M_k", "rigid (asperity stiffness) part of the contact force"),
@@ -29,11 +30,11 @@ REPORTED: Final = (
     Quantity("tensile_clip_share", "1", "share of the contact area where the clip of tensile pressure acts"),
     Quantity("contact_fraction", "1", "share of the surface in contact"),
 )
-"""The report of an instant."""
 
+#: At an instant, and the largest of a run.
 PLASTIC: Final = Quantity("plastic_share", "1", "share of the contact area that carries the hardness", ())
-"""At an instant, and the largest of a run."""
 
+#: Over all accepted steps; output times would miss them.
 PEAKS: Final = (
     Quantity("contact_force_peak", "N", "largest contact force at any accepted step", ()),
     Quantity("contact_force_peak_time", "s", "when the contact force was largest", ()),
@@ -42,7 +43,6 @@ PEAKS: Final = (
     Quantity("separation_least", "m", "smallest gap at any accepted step", ()),
     Quantity("tensile_clip_time", "s", "time integral of the share of the contact where the clip acts", ()),
 )
-"""Over all accepted steps; output times would miss them."""
 
 Report = of_table((*REPORTED, PLASTIC))
 Peaks = of_table((*PEAKS, PLASTIC))

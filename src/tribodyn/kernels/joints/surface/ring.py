@@ -41,40 +41,31 @@ from tribodyn.kernels.lanes import (
     zeros,
 )
 
-Wave = tuple[Any, Any, Any]
-"""a, b and c of a + b cos θ + c sin θ, each in all lanes."""
-BentWave = tuple[Any, Any, Any, Any, Any]
-"""And d and e of d cos² θ + e cos θ sin θ."""
+Wave = tuple[Any, Any, Any]  #: a, b and c of a + b cos θ + c sin θ, each in all lanes.
+BentWave = tuple[Any, Any, Any, Any, Any]  #: And d and e of d cos² θ + e cos θ sin θ.
 
 COSINE: Final = 0 * WIDTH
-SINE: Final = 1 * WIDTH
-"""Of θ."""
+SINE: Final = 1 * WIDTH  #: Of θ.
 NUMBER: Final = 2 * WIDTH
-FRACTION: Final = 3 * WIDTH
-"""Interval of the contact table, as ``store_places`` writes it, and place in it."""
-RATIO: Final = 4 * WIDTH
-"""Approach speed over reference velocity."""
+FRACTION: Final = 3 * WIDTH  #: Interval of the contact table, as ``store_places`` writes it, and place in it.
+RATIO: Final = 4 * WIDTH  #: Approach speed over reference velocity.
 AROUND_UNIT: Final = 5 * WIDTH
-ALONG_UNIT: Final = 6 * WIDTH
-"""Slips around and along over √(s² + u_s²)."""
-PRESSURE: Final = 7 * WIDTH
-"""P_c [Pa]."""
+ALONG_UNIT: Final = 6 * WIDTH  #: Slips around and along over √(s² + u_s²).
+PRESSURE: Final = 7 * WIDTH  #: P_c [Pa].
 POSITION: Final = 8 * WIDTH
 SPEED: Final = 9 * WIDTH
 RIGID: Final = 10 * WIDTH
+#: Of reports: place in the whole table, |s| [m/s], P_k [Pa] and the stored energy over σ [Pa].
 ENERGY: Final = 11 * WIDTH
-"""Of reports: place in the whole table, |s| [m/s], P_k [Pa] and the stored energy over σ [Pa]."""
 FOLLOWING: Final = 8 * WIDTH
 PER_SPEED: Final = 9 * WIDTH
 STIFFNESS: Final = 10 * WIDTH
+#: Of derivatives: ∂/∂δ̇ of ``RATIO`` [s/m], 1/√(s² + u_s²) [s/m], ∂P_c/∂h [Pa/m] and ∂P_c/∂δ̇ [Pa s/m].
 RESISTANCE: Final = 11 * WIDTH
-"""Of derivatives: ∂/∂δ̇ of ``RATIO`` [s/m], 1/√(s² + u_s²) [s/m], ∂P_c/∂h [Pa/m] and ∂P_c/∂δ̇ [Pa s/m]."""
-STRIDE: Final = COLUMNS * WIDTH
-"""Numbers of a group."""
+STRIDE: Final = COLUMNS * WIDTH  #: Numbers of a group.
 WRENCH: Final = 0.0
 REPORT: Final = 1.0
-DERIVATIVES: Final = 2.0
-"""Purpose for which the groups are filled."""
+DERIVATIVES: Final = 2.0  #: Purpose for which the groups are filled.
 
 
 class RingMotion(NamedTuple):

@@ -70,8 +70,8 @@ NORMAL_PLACE: Final = 0 * MATRIX
 NORMAL_RATE: Final = 1 * MATRIX
 FRICTION_PLACE: Final = 2 * MATRIX
 FRICTION_RATE: Final = 3 * MATRIX
+#: Begins of the derivatives, the last three over μ, the second and the last two with the opposite sign.
 FRICTION_SLIP: Final = 4 * MATRIX
-"""Begins of the derivatives, the last three over μ, the second and the last two with the opposite sign."""
 
 
 class Arms(NamedTuple):

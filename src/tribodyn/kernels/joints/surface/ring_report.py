@@ -55,11 +55,11 @@ from tribodyn.kernels.lanes import (
     zeros,
 )
 
+#: Energy over σ, power of damping and of friction over −μ, areas in contact, that pull and are plastic, and
+#: the power over σ of a contact that changes its extent on the energy.
 Terms = tuple[Any, Any, Any, Any, Any, Any, Any]
-"""Energy over σ, power of damping and of friction over −μ, areas in contact, that pull and are plastic,
-and the power over σ of a contact that changes its extent on the energy."""
+#: Sums of rigid pressures, ∫P_k dA, the terms, highest pressure and nearest place in the table.
 Rest = tuple[Pressures, Any, Terms, Any, Any]
-"""Sums of rigid pressures, ∫P_k dA, the terms, highest pressure and nearest place in the table."""
 
 
 @kernel

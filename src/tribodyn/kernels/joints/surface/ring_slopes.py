@@ -32,18 +32,13 @@ from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals
 FIVE: Final = 5 * WIDTH
 PUSHES: Final = 0 * FIVE
 STIFF: Final = 1 * FIVE
-RESISTING: Final = 4 * FIVE
-"""Of the weights P_c, ∂P_c/∂h, and ∂P_c/∂δ̇."""
+RESISTING: Final = 4 * FIVE  #: Of the weights P_c, ∂P_c/∂h, and ∂P_c/∂δ̇.
+#: Distance to the sums of the same weight times slip around over q = √(s² + u_s²); then times slip along.
 PULLED: Final = FIVE
-"""Distance to the sums of the same weight times slip around over q = √(s² + u_s²); then times slip along."""
-TRACTIONS: Final = 7 * FIVE
-"""Of P_c times these slips."""
-SLIPS: Final = 9 * FIVE
-"""Of P_c/q times 1 − t², t b and 1 − b², where t and b are these slips."""
-WIDENED: Final = 18 * FIVE
-"""Of ∂P_c/∂q, see ``bulk``, and of it times these slips."""
-SQUARED: Final = 11 * FIVE
-"""Distance to the sums of the same weight times cos² θ, of ∂P_c/∂h and ∂P_c/∂δ̇."""
+TRACTIONS: Final = 7 * FIVE  #: Of P_c times these slips.
+SLIPS: Final = 9 * FIVE  #: Of P_c/q times 1 − t², t b and 1 − b², where t and b are these slips.
+WIDENED: Final = 18 * FIVE  #: Of ∂P_c/∂q, see ``bulk``, and of it times these slips.
+SQUARED: Final = 11 * FIVE  #: Distance to the sums of the same weight times cos² θ, of ∂P_c/∂h and ∂P_c/∂δ̇.
 
 
 @kernel

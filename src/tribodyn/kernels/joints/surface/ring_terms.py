@@ -14,8 +14,8 @@ from tribodyn.kernels.lanes import WIDTH, load
 Three = tuple[Any, Any, Any]
 Five = tuple[Any, Any, Any, Any, Any]
 Seven = tuple[Any, Any, Any, Any, Any, Any, Any]
+#: Sums of a weight times 1, c, s; c², c s; c³, c² s; c⁴, c³ s.
 Nine = tuple[Any, Any, Any, Any, Any, Any, Any, Any, Any]
-"""Sums of a weight times 1, c, s; c², c s; c³, c² s; c⁴, c³ s."""
 
 
 @inlined

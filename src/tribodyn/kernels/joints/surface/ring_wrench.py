@@ -35,8 +35,7 @@ from tribodyn.kernels.joints.surface.ring_sums import (
 )
 from tribodyn.kernels.lanes import WIDTH, load, zeros
 
-Forces = tuple[Pressures, Tractions, Any]
-"""Sums of pressures and of tractions, and ∫P_c dA."""
+Forces = tuple[Pressures, Tractions, Any]  #: Sums of pressures and of tractions, and ∫P_c dA.
 
 
 @kernel

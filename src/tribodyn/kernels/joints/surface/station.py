@@ -18,13 +18,13 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.jit import kernel
 
+#: d_Q [m], its rate, v_Q [m/s], ω [rad/s], u, z [m]; without sliding those of P, and nothing. ``opening`` is
+#: what gaps and clearances have more than as drawn [m], where a bore follows its temperature, then its rate;
+#: ``direction`` is that of the rotation which a friction torque opposes.
 Station: Final = record_type(
     *((name, "f8", (3,)) for name in ("d", "v", "slip", "w", "axis")),
     *((name, "f8") for name in ("height", "opening", "v_opening", "direction")),
 )
-"""d_Q [m], its rate, v_Q [m/s], ω [rad/s], u, z [m]; without sliding those of P, and nothing. ``opening`` is
-what gaps and clearances have more than as drawn [m], where a bore follows its temperature, then its rate;
-``direction`` is that of the rotation which a friction torque opposes."""
 
 
 @kernel

@@ -33,10 +33,10 @@ AXIS: Final = 1.0
 WHOLE: Final = 2.0
 LINE: Final = 3.0
 
+#: φ [rad], φ̇ [rad/s], G, and ∂φ̇/∂ϑ [1/s] for a small rotation ϑ of the shaft, whose ω is held fixed.
 Tilt: Final = record_type(
     ("phi", "f8", (3,)), ("rate", "f8", (3,)), ("to_rate", "f8", (3, 3)), ("rate_turn", "f8", (3, 3))
 )
-"""φ [rad], φ̇ [rad/s], G, and ∂φ̇/∂ϑ [1/s] for a small rotation ϑ of the shaft, whose ω is held fixed."""
 
 
 @kernel

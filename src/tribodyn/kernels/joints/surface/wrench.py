@@ -14,8 +14,7 @@ from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import gather, rewind
 from tribodyn.kernels.lanes import WIDTH, load, total, zeros
 
-LEAST_SQUARE: Final = 1.0e-300
-"""Least squared slip velocity, in the place of zero."""
+LEAST_SQUARE: Final = 1.0e-300  #: Least squared slip velocity, in the place of zero.
 
 
 @inlined

@@ -18,6 +18,7 @@ from tribodyn.papers.cheng_2022.claims import (
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, as_text, judge, kept_rows
 
+#: The conclusion that matters most, then in the order of the paper.
 CLAIMS: Final[tuple[Claim, ...]] = (
     *undamped.CLAIMS,
     *damping.CLAIMS,
@@ -31,7 +32,6 @@ CLAIMS: Final[tuple[Claim, ...]] = (
     *clearance.CLAIMS,
     *wear.CLAIMS,
 )
-"""The conclusion that matters most, then in the order of the paper."""
 
 __all__ = [
     "CLAIMS",

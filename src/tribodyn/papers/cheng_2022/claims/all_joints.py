@@ -15,8 +15,7 @@ from tribodyn.papers.cheng_2022.claims.base import SLOW, Claim, Finding, Trial, 
 from tribodyn.papers.cheng_2022.claims.bounds import STRICT, near
 from tribodyn.papers.cheng_2022.runs import JOINTS, forward, is_smooth
 
-ONE: Final = "trunnion"
-"""The joint that the paper gives a clearance."""
+ONE: Final = "trunnion"  #: The joint that the paper gives a clearance.
 SEVEN: Final = 7.0
 
 

@@ -14,16 +14,15 @@ from tribodyn.papers.cheng_2022.impacts import HARDEST, windows
 from tribodyn.papers.cheng_2022.runs import forward, smooth
 from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre, centre_velocity
 
-_RANGE: Final = (60.0, 120.0)
-"""Range of the vane in the paper [deg]."""
+_RANGE: Final = (60.0, 120.0)  #: Range of the vane in the paper [deg].
 _NO_LOADS: Final[Mapping[str, object]] = {
     "loads.air_force_x": "0 N",
     "loads.air_force_y": "0 N",
     "loads.air_moment": "0 N m",
     "run.start": "equilibrium",
 }
+#: Times after a reversal over which velocities are compared [s]: the paper names none.
 WINDOWS: Final = (5e-3, 20e-3, HARDEST)
-"""Times after a reversal over which velocities are compared [s]: the paper names none."""
 
 
 def vane_range(trial: Trial) -> Finding:
@@ -142,6 +141,7 @@ _LEVER: Final = (
 )
 _CROSSES: Final = "the trunnion crosses its clearance as a whole; it rocks only by what its ends differ"
 
+#: Claims on motion.
 CLAIMS: Final = (
     Claim(
         "vane range", ("V1",), "the vane turns from 60° to 120°", "whole",
@@ -200,4 +200,3 @@ CLAIMS: Final = (
         above(0.0, "mrad to either side", by="the paper"), phi_y_alternates,
     ),
 )  # fmt: skip
-"""Claims on motion."""

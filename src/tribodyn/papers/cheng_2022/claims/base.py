@@ -17,18 +17,10 @@ from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs, is_smooth, mean_ra
 
 
 class Sentence(NamedTuple):
-    """A sentence of the paper.
+    """A sentence of the paper."""
 
-    Attributes
-    ----------
-    where
-        Section, and figure where it names one.
-    text
-        Its words, shortened where dots stand.
-    """
-
-    where: str
-    text: str
+    where: str  #: Section, and figure where it names one.
+    text: str  #: Its words, shortened where dots stand.
 
 
 def _read() -> dict[str, Sentence]:
@@ -36,33 +28,29 @@ def _read() -> dict[str, Sentence]:
     return {name: Sentence(**row) for name, row in tomllib.loads(text).items()}
 
 
-SENTENCES: Final = _read()
-"""Sentences by name, in the order of the paper."""
+SENTENCES: Final = _read()  #: Sentences by name, in the order of the paper.
 
 
-NARROW: Final = CLEARANCES[0]
-"""Clearance of section 5.2 [m]."""
+NARROW: Final = CLEARANCES[0]  #: Clearance of section 5.2 [m].
+#: Part of a run in which a number is measured: outside the first tenth of each stroke; the 50 ms after each
+#: reversal; or all of it but the first tenth of the first stroke, where it starts.
 Domain: TypeAlias = Literal["smooth motion", "impacts", "whole"]
-"""Part of a run in which a number is measured: outside the first tenth of each stroke; the 50 ms after each
-reversal; or all of it but the first tenth of the first stroke, where it starts."""
 Formulations: TypeAlias = Literal["both", "alike", "exact", "all"]
+#: Formulations in which a claim is measured; one that is not about the mechanism in either.
 IN: Final[dict[Formulations, tuple[str, ...]]] = {
     "both": ("paper", "exact"),
     "alike": ("paper",),
     "exact": ("exact",),
     "all": ("printed", "paper", "exact"),
 }
-"""Formulations in which a claim is measured; one that is not about the mechanism in either."""
 
 
-SLOW: Final = ("tolerance", "solver")
-"""Factors that slow claims leave as they are."""
+SLOW: Final = ("tolerance", "solver")  #: Factors that slow claims leave as they are.
+#: The same of claims with many runs, which another solver would take most of the time for.
 MANY_RUNS: Final = ("solver",)
-"""The same of claims with many runs, which another solver would take most of the time for."""
 
 
-EARLY: Final = "the run ends early"
-"""Text for a run that left the range of the contact law."""
+EARLY: Final = "the run ends early"  #: Text for a run that left the range of the contact law.
 
 
 class EndedEarly(Exception):
@@ -71,20 +59,11 @@ class EndedEarly(Exception):
 
 @dataclass(frozen=True)
 class Trial:
-    """Runs of one formulation on which a claim is measured.
+    """Runs of one formulation on which a claim is measured."""
 
-    Attributes
-    ----------
-    runs
-        The runs, each computed once.
-    formulation
-        ``printed``, ``paper`` or ``exact``.
-    left_out
-        Time after each reversal that is no smooth motion [s]; by default a tenth of a stroke.
-    """
-
-    runs: Runs
-    formulation: str
+    runs: Runs  #: The runs, each computed once.
+    formulation: str  #: ``printed``, ``paper`` or ``exact``.
+    #: Time after each reversal that is no smooth motion [s]; by default a tenth of a stroke.
     left_out: float | None = None
 
     def vsv(self, clearance: float = NARROW, more: Mapping[str, object] | None = None) -> xr.Dataset:
@@ -111,66 +90,35 @@ class Trial:
 
 @dataclass(frozen=True)
 class Finding:
-    """Finding of one formulation.
+    """Finding of one formulation."""
 
-    Attributes
-    ----------
-    text
-        What was measured, with its unit.
-    value
-        The number that is judged, in the unit of the bound.
-    span
-        Least and largest number, where the paper does not say which one is meant.
-    """
-
-    text: str
-    value: float
+    text: str  #: What was measured, with its unit.
+    value: float  #: The number that is judged, in the unit of the bound.
+    #: Least and largest number, where the paper does not say which one is meant.
     span: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One statement of the paper.
+    """One statement of the paper."""
 
-    Attributes
-    ----------
-    name
-        Short name, unique.
-    sentences
-        Sentences of the paper that make it, by their names in :data:`SENTENCES`.
-    says
-        What the paper says.
-    domain
-        Part of the run in which it is measured.
-    bound
-        How the number is judged.
-    measure
-        Returns the finding of a trial; none where the claim is not tested. Its docstring begins with
-        *Measure* and names the quantity.
-    reason
-        Why the finding is what it is, where it is not simply the paper's.
-    condition
-        What must be assumed for the claim to hold at all.
-    formulations
-        ``both``: ``paper`` and ``exact``; ``all``: ``printed``, too; ``alike`` where it is not about the
-        mechanism; ``exact`` where the others have no such model.
-    margin
-        Whether the number must pass its limit by the scatter of the ensemble: *always*, *opposite*.
-    leave
-        Factors of the ensemble that it does not meet. Without the tolerance it is measured on few members:
-        it has tolerances of its own, and its runs take minutes.
-    """
-
-    name: str
-    sentences: tuple[str, ...]
-    says: str
-    domain: Domain
-    bound: Bound
+    name: str  #: Short name, unique.
+    sentences: tuple[str, ...]  #: Sentences of the paper that make it, by their names in :data:`SENTENCES`.
+    says: str  #: What the paper says.
+    domain: Domain  #: Part of the run in which it is measured.
+    bound: Bound  #: How the number is judged.
+    #: Returns the finding of a trial; none where the claim is not tested. Its docstring begins with *Measure*
+    #: and names the quantity.
     measure: Callable[[Trial], Finding] | None = None
-    reason: str = ""
-    condition: str = ""
+    reason: str = ""  #: Why the finding is what it is, where it is not simply the paper's.
+    condition: str = ""  #: What must be assumed for the claim to hold at all.
+    #: ``both``: ``paper`` and ``exact``; ``all``: ``printed``, too; ``alike`` where it is not about the
+    #: mechanism; ``exact`` where the others have no such model.
     formulations: Formulations = "both"
+    #: Whether the number must pass its limit by the scatter of the ensemble: *always*, *opposite*.
     margin: bool = False
+    #: Factors of the ensemble that it does not meet. Without the tolerance it is measured on few members: it
+    #: has tolerances of its own, and its runs take minutes.
     leave: tuple[str, ...] = ()
 
     @property
@@ -198,8 +146,7 @@ def least_growth(values: FloatArray) -> float:
     return float(100.0 * np.min(np.diff(values) / np.abs(values[:-1])))
 
 
-_GAP: Final = 0.1
-"""Longer times between samples are impacts left out [s]."""
+_GAP: Final = 0.1  #: Longer times between samples are impacts left out [s].
 
 
 def weights(time: FloatArray) -> FloatArray:

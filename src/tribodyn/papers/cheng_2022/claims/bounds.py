@@ -13,6 +13,7 @@ Verdict: TypeAlias = Literal[
 Chooser: TypeAlias = Literal["the paper", "we"]
 Range: TypeAlias = tuple[float, float]
 
+#: All verdicts, each with its meaning.
 VERDICTS: Final[dict[Verdict, str]] = {
     "reproduced": "the number is strictly inside the bound",
     "on a condition": "it is inside the bound with a value that no equation allows",
@@ -22,50 +23,28 @@ VERDICTS: Final[dict[Verdict, str]] = {
     "our own, decide",
     "not tested": "it is not simulated in this formulation",
 }
-"""All verdicts, each with its meaning."""
+#: A number is reproduced when ours is within this factor of the number that the paper prints.
 CLOSE: Final = 1.25
-"""A number is reproduced when ours is within this factor of the number that the paper prints."""
-NEAR: Final = 2.0
-"""It differs within this factor, and contradicts beyond."""
-FIRST: Final = "2026-11-21"
-"""Day of the first table of claims."""
-STRICT: Final = "2026-11-22"
-"""Day on which every claim got a strict bound with an owner."""
+NEAR: Final = 2.0  #: It differs within this factor, and contradicts beyond.
+FIRST: Final = "2026-11-21"  #: Day of the first table of claims.
+STRICT: Final = "2026-11-22"  #: Day on which every claim got a strict bound with an owner.
+#: Day on which domains, sentences and the claims left out until then were added.
 REVIEWED: Final = "2026-11-23"
-"""Day on which domains, sentences and the claims left out until then were added."""
+#: Day on which every claim got an ensemble, and half-sentences rows of their own.
 VARIED: Final = "2026-11-26"
-"""Day on which every claim got an ensemble, and half-sentences rows of their own."""
 
 
 @dataclass(frozen=True)
 class Bound:
-    """Interval in which a number must lie.
+    """Interval in which a number must lie."""
 
-    Attributes
-    ----------
-    full
-        A claim is reproduced strictly between these two.
-    partly
-        It differs strictly between these two, and is contradicted elsewhere.
-    unit
-        Unit of the number.
-    by
-        Who chose ``full``: the paper where its words do, or we.
-    since
-        Day on which it was chosen. All of ours were chosen with results at hand.
-    origin
-        Number from which the limits are counted when the bound is scaled.
-    factors
-        Whether the limits are factors of ``origin``.
-    """
-
-    full: Range
-    partly: Range
-    unit: str
-    by: Chooser
-    since: str = STRICT
-    origin: float = 0.0
-    factors: bool = False
+    full: Range  #: A claim is reproduced strictly between these two.
+    partly: Range  #: It differs strictly between these two, and is contradicted elsewhere.
+    unit: str  #: Unit of the number.
+    by: Chooser  #: Who chose ``full``: the paper where its words do, or we.
+    since: str = STRICT  #: Day on which it was chosen. All of ours were chosen with results at hand.
+    origin: float = 0.0  #: Number from which the limits are counted when the bound is scaled.
+    factors: bool = False  #: Whether the limits are factors of ``origin``.
 
     def verdict(self, value: float) -> Verdict:
         """Return the verdict on a number; NaN contradicts the claim."""
@@ -139,10 +118,10 @@ def _one_sided(
     return Bound(full, wider, unit, by, since, origin)
 
 
+#: Bound that a number must exceed; above ``partly`` the claim still differs only.
 above: Final = partial(_one_sided, upward=True)
-"""Bound that a number must exceed; above ``partly`` the claim still differs only."""
+#: Bound that a number must stay below; below ``partly`` the claim still differs only.
 below: Final = partial(_one_sided, upward=False)
-"""Bound that a number must stay below; below ``partly`` the claim still differs only."""
 
 
 def near(paper: float, unit: str, since: str = FIRST) -> Bound:

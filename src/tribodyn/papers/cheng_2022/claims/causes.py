@@ -13,8 +13,8 @@ from tribodyn.papers.cheng_2022.runs import forward, smooth
 
 _NO_F_AIRY: Final[Mapping[str, object]] = {"loads.air_force_y": "0 N"}
 NO_M_AIR: Final[Mapping[str, object]] = {"loads.air_moment": "0 N m", "run.start": "equilibrium"}
+#: An effect that is less than half without a load is caused by it.
 CAUSE: Final = below(0.5, "times", partly=0.9, since=REVIEWED)
-"""An effect that is less than half without a load is caused by it."""
 
 
 def f_cy_by_f_airy(trial: Trial) -> Finding:
@@ -69,6 +69,7 @@ def _agreement(share: float) -> float:
     return float(np.maximum(share, 100.0 - share))
 
 
+#: Claims on causes.
 CLAIMS: Final = (
     Claim(
         "F_cy by F_airy", ("F1",), "F_cy is negative due to the effect of F_airy", "smooth motion",
@@ -93,4 +94,3 @@ CLAIMS: Final = (
         "without the lever moment φ_y follows F_airx, which changes its sign at θ_v = 90°",
     ),
 )  # fmt: skip
-"""Claims on causes."""

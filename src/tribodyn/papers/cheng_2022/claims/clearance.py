@@ -15,12 +15,11 @@ from tribodyn.papers.cheng_2022.claims.forces import size
 from tribodyn.papers.cheng_2022.impacts import collision_speed, peaks
 from tribodyn.papers.cheng_2022.runs import smooth
 
-_NARROW: Final = 30e-6
-"""Wider clearances are the paper's large ones, 35 and 40 µm [m]."""
+_NARROW: Final = 30e-6  #: Wider clearances are the paper's large ones, 35 and 40 µm [m].
+#: Distance from 90° in time within which the load that changes sign there is the cause [s].
 _SWITCH: Final = 0.1
-"""Distance from 90° in time within which the load that changes sign there is the cause [s]."""
+#: Until after the first time that the vane passes 90°, with rows that resolve what rings there.
 _FINE: Final = {"run.duration": "1.6 s", "run.output_interval": "0.5 ms"}
-"""Until after the first time that the vane passes 90°, with rows that resolve what rings there."""
 
 
 def forces_alike(trial: Trial) -> Finding:
@@ -127,6 +126,7 @@ def deflection_grows(trial: Trial) -> Finding:
     return Finding(listed(found, "mrad"), least_growth(found))
 
 
+#: Claims on the effect of the clearance.
 CLAIMS: Final = (
     Claim(
         "forces alike", ("C8",), "the contact forces are almost equal for all clearances", "smooth motion",
@@ -181,4 +181,3 @@ CLAIMS: Final = (
         above(0.0, "% a step", by="the paper"), deflection_grows, leave=MANY_RUNS,
     ),
 )  # fmt: skip
-"""Claims on the effect of the clearance."""

@@ -11,10 +11,10 @@ from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, above, below
 from tribodyn.papers.cheng_2022.claims.forces import size
 from tribodyn.papers.cheng_2022.undamped import TOLERANCES, undamped
 
+#: Drag moments M_air that are tried [N m]; Table 3 has 0.84.
 MOMENTS: Final = (0.30, 0.36, 0.42, 0.48, 0.54, 0.60, 0.72, 0.84, 1.00)
-"""Drag moments M_air that are tried [N m]; Table 3 has 0.84."""
+#: Friction of each formulation by default.
 _FRICTION: Final = {"printed": "moment", "paper": "moment", "exact": "traction"}
-"""Friction of each formulation by default."""
 
 
 def under_moment(trial: Trial, moment: float) -> xr.Dataset:
@@ -59,6 +59,7 @@ _TERM: Final = (
     "can gain energy"
 )
 
+#: Claims on damping.
 CLAIMS: Final = (
     Claim(
         "damping ensures stability, the paper's load", ("A3", "K4"),
@@ -85,4 +86,3 @@ CLAIMS: Final = (
         reason="neither the paper nor we have a measurement to compare with",
     ),
 )  # fmt: skip
-"""Claims on damping."""

@@ -20,18 +20,15 @@ from tribodyn.papers.cheng_2022.claims.base import Claim
 from tribodyn.papers.cheng_2022.claims.bounds import Bound, Verdict, of_span
 from tribodyn.papers.cheng_2022.runs import JOINTS
 
+#: Measure of a claim: a number, two where the paper does not say which is meant, none without a run.
 Number: TypeAlias = float | tuple[float, float] | None
-"""Measure of a claim: a number, two where the paper does not say which is meant, none without a run."""
-Level: TypeAlias = Mapping[str, Mapping[str, object]]
-"""Changes of built-in cases, by their names."""
+Level: TypeAlias = Mapping[str, Mapping[str, object]]  #: Changes of built-in cases, by their names.
 
 FILE: Final = "ensemble.json"
-STANDS: Final = 0.9
-"""Share of the members that must agree for a verdict to stand."""
+STANDS: Final = 0.9  #: Share of the members that must agree for a verdict to stand.
+#: Times after a reversal that are no smooth motion [s]; the first is a tenth of a stroke, 0.31 s.
 LEFT_OUT: Final = (None, 0.5, 0.8)
-"""Times after a reversal that are no smooth motion [s]; the first is a tenth of a stroke, 0.31 s."""
-SCALES: Final = (1.0, 0.5, 2.0)
-"""Factors of bounds that are ours."""
+SCALES: Final = (1.0, 0.5, 2.0)  #: Factors of bounds that are ours.
 VSV, ALL_JOINTS, JOURNALS = "vsv", "vsv-joints", ("journal-dry", "journal-oil")
 _ATOL: Final = {"position": "m", "tilt": "rad", "velocity": "m/s", "tilt_rate": "rad/s"}
 _OF_VSV: Final = (2e-10, 2e-8, 2e-6, 2e-4)
@@ -64,6 +61,7 @@ def _guide(length: str) -> Level:
     return {ALL_JOINTS: {"joints.guide.clearance.length": length}}
 
 
+#: Factors with their levels; the first level is the default.
 FACTORS: Final[dict[str, dict[str, Level]]] = {
     "grid": {"by clearance": {}, "96 × 16": _everywhere(solver__grid__theta=96, solver__grid__z=16)},
     "tolerance": {"default": {}, "a tenth": _tolerance(10.0), "a hundredth": _tolerance(100.0)},
@@ -75,12 +73,11 @@ FACTORS: Final[dict[str, dict[str, Level]]] = {
     "guide": {length: _guide(length) for length in ("10 mm", "5 mm", "40 mm")},
     "solver": {"mebdf": {}, "mebdf again": {}, "radau": {VSV: {"solver.name": "radau"}}},
 }
-"""Factors with their levels; the first level is the default."""
+#: Levels of tolerance, v_min, μ_f, guide and solver, by grid: the orthogonal array of 18 rows.
 _ARRAY: Final = (
     "00000 01111 02222 10011 11122 12200 20102 21210 22021",
     "00221 01002 02110 10120 11201 12012 20212 21020 22101",
 )
-"""Levels of tolerance, v_min, μ_f, guide and solver, by grid: the orthogonal array of 18 rows."""
 VARIED: Final = ("tolerance", "v_min", "μ_f", "guide", "solver")
 
 
@@ -112,35 +109,19 @@ def _members() -> tuple[Member, ...]:
     )
 
 
-MEMBERS: Final = _members()
-"""The first has every default."""
-SLOW_MEMBERS: Final = (0, 1, 2)
-"""Members on which claims are measured whose runs take minutes."""
+MEMBERS: Final = _members()  #: The first has every default.
+SLOW_MEMBERS: Final = (0, 1, 2)  #: Members on which claims are measured whose runs take minutes.
 
 
 @dataclass(frozen=True)
 class Judgement:
-    """Verdict of the ensemble on a claim in one formulation.
+    """Verdict of the ensemble on a claim in one formulation."""
 
-    Attributes
-    ----------
-    verdict
-        That of nine tenths of the members, or *not decidable*.
-    share
-        Share of the members with the most frequent verdict.
-    span
-        Least and largest number; NaN where no member has one.
-    decides
-        The choice that decides where no verdict stands, in words.
-    margin
-        What the number must pass its limit by, in its unit; 0 where words ask for none.
-    """
-
-    verdict: Verdict
-    share: float
-    span: tuple[float, float]
-    decides: str = ""
-    margin: float = 0.0
+    verdict: Verdict  #: That of nine tenths of the members, or *not decidable*.
+    share: float  #: Share of the members with the most frequent verdict.
+    span: tuple[float, float]  #: Least and largest number; NaN where no member has one.
+    decides: str = ""  #: The choice that decides where no verdict stands, in words.
+    margin: float = 0.0  #: What the number must pass its limit by, in its unit; 0 where words ask for none.
 
 
 @cache

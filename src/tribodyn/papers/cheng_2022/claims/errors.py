@@ -77,6 +77,7 @@ def _claims(
     )  # fmt: skip
 
 
+#: Claims on accuracy.
 CLAIMS: Final = (
     *_claims(CLEARANCES[0], 0.02, 2.5e-4, "about ", ("C1", "C2", "C3")),
     *_claims(CLEARANCES[-1], 0.043, 7.5e-4, "", ("C5", "C5", "C5")),
@@ -90,4 +91,3 @@ CLAIMS: Final = (
         leave=MANY_RUNS,
     ),
 )
-"""Claims on accuracy."""

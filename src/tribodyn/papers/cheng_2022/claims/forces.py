@@ -13,10 +13,8 @@ from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, VARIED, above, be
 from tribodyn.papers.cheng_2022.impacts import damping_along_rigid, peaks, windows
 from tribodyn.papers.cheng_2022.runs import forward, is_smooth, smooth
 
-_STEP: Final = 5e-3
-"""Time between the instants at which two cycles are compared [s]."""
-_TOUCH: Final = 1e-3
-"""Contact forces below this are none [N]."""
+_STEP: Final = 5e-3  #: Time between the instants at which two cycles are compared [s].
+_TOUCH: Final = 1e-3  #: Contact forces below this are none [N].
 
 
 def size(run: xr.Dataset, part: str) -> FloatArray:
@@ -119,6 +117,7 @@ def damping_changes_sign(trial: Trial) -> Finding:
 
 _ALWAYS: Final = "in the impacts the force takes every direction"
 
+#: Claims on forces.
 CLAIMS: Final = (
     Claim(
         "forces periodic", ("F1",), "F_cx and F_cy are periodic during the two cycles", "smooth motion",
@@ -176,4 +175,3 @@ CLAIMS: Final = (
         above(0.1, "times"), damping_changes_sign,
     ),
 )  # fmt: skip
-"""Claims on forces."""

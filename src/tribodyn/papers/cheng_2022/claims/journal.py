@@ -11,14 +11,10 @@ from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial, listed
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, REVIEWED, VARIED, above, below
 from tribodyn.papers.cheng_2022.runs import LAWS
 
-LOAD: Final = (200.0, 100.0)
-"""Load along X and Y in section 4.1 [N]."""
-_BEGUN: Final = 0.001
-"""Contact has begun where its force exceeds this share of the final one."""
-_INITIAL: Final = 0.1
-"""The initial stage of contact lasts until its force is this share of the final one."""
-_FALL: Final = (0.9, 0.1)
-"""The fall of a force is timed between these shares of its largest value."""
+LOAD: Final = (200.0, 100.0)  #: Load along X and Y in section 4.1 [N].
+_BEGUN: Final = 0.001  #: Contact has begun where its force exceeds this share of the final one.
+_INITIAL: Final = 0.1  #: The initial stage of contact lasts until its force is this share of the final one.
+_FALL: Final = (0.9, 0.1)  #: The fall of a force is timed between these shares of its largest value.
 
 
 def _dry(trial: Trial, law: str) -> xr.Dataset:
@@ -225,6 +221,7 @@ _KEPT: Final = (
     "the paper's step did is an inference"
 )
 
+#: Claims on section 4.
 CLAIMS: Final = (
     Claim(
         "dry RSDC rests", ("J1", "J4"), "dry, with RSDC e_x and e_y finally remain constant", "whole",
@@ -311,4 +308,3 @@ CLAIMS: Final = (
         above(1.0, "times", by="the paper", since=REVIEWED), oil_damps_more, formulations="alike",
     ),
 )  # fmt: skip
-"""Claims on section 4."""

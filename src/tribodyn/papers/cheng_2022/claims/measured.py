@@ -14,8 +14,8 @@ from tribodyn.papers.cheng_2022.claims.ensemble import FILE, LEFT_OUT, MEMBERS, 
 from tribodyn.papers.cheng_2022.runs import Runs
 from tribodyn.results.atomic import write_text
 
+#: Numbers and words of a member, each by claim and formulation.
 Piece: TypeAlias = dict[str, dict[str, dict[str, Any]]]
-"""Numbers and words of a member, each by claim and formulation."""
 _DIGITS: Final = 5
 
 

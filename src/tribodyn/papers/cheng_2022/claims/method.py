@@ -10,13 +10,11 @@ from tribodyn.papers.cheng_2022.claims.base import NARROW, SLOW, Claim, Finding,
 from tribodyn.papers.cheng_2022.claims.bounds import VARIED, above, below
 from tribodyn.papers.cheng_2022.runs import smooth
 
+#: Degrees of freedom of the joints of the case ``vsv-joints``; the ball on the pin slides in a slot.
 _FREEDOMS: Final = {"revolute": 1, "spherical": 3, "cylindrical": 2, "pin-slot": 4}
-"""Degrees of freedom of the joints of the case ``vsv-joints``; the ball on the pin slides in a slot."""
-_LINK_SPINS: Final = 1
-"""The drag link between two balls turns about itself, which is not counted."""
+_LINK_SPINS: Final = 1  #: The drag link between two balls turns about itself, which is not counted.
 _CYCLE: Final = "6.283 s"
-_OTHERS: Final = ("bdf", "radau")
-"""Solvers that ``mebdf`` is compared with."""
+_OTHERS: Final = ("bdf", "radau")  #: Solvers that ``mebdf`` is compared with.
 
 
 def mobility(trial: Trial) -> Finding:
@@ -45,6 +43,7 @@ def fewer_evaluations(trial: Trial) -> Finding:
     return Finding(text, counts["mebdf"] / min(counts[name] for name in _OTHERS))
 
 
+#: Claims on equations and solution.
 CLAIMS: Final = (
     Claim(
         "tangential damping", ("I2",), "tangential damping may be ignored", "whole",
@@ -65,4 +64,3 @@ CLAIMS: Final = (
         below(1.0, "times", partly=2.0, by="the paper", since=VARIED), fewer_evaluations, leave=SLOW,
     ),
 )  # fmt: skip
-"""Claims on equations and solution."""

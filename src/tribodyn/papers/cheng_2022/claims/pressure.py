@@ -11,10 +11,8 @@ from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, VARIED, above, below
 from tribodyn.papers.cheng_2022.claims.causes import CAUSE, NO_M_AIR
 
-ZONE: Final = 0.05
-"""Contact is where the pressure exceeds this share of its peak."""
-SHARES: Final = (0.02, ZONE, 0.1)
-"""Other shares that are tried: the paper gives none."""
+ZONE: Final = 0.05  #: Contact is where the pressure exceeds this share of its peak.
+SHARES: Final = (0.02, ZONE, 0.1)  #: Other shares that are tried: the paper gives none.
 
 
 def contact_arc(
@@ -137,6 +135,7 @@ _THRESHOLD: Final = (
 )
 _OFF: Final = below(15.0, "° off", partly=30.0, since=FIRST)
 
+#: Claims on the contact pressure.
 CLAIMS: Final = (
     Claim(
         "zone forward", ("P2",), "forward contact occurs at 300° to 45°", "smooth motion",
@@ -169,4 +168,3 @@ CLAIMS: Final = (
         above(1.0, "times", by="the paper", since=VARIED), interference_in_x,
     ),
 )  # fmt: skip
-"""Claims on the contact pressure."""

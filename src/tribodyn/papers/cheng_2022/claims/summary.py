@@ -9,6 +9,7 @@ from tribodyn.papers.cheng_2022.claims.bounds import VERDICTS, Verdict
 from tribodyn.papers.cheng_2022.claims.table import Row
 
 FAVOURABLE: Final[tuple[Verdict, ...]] = ("reproduced", "on a condition")
+#: The verdict of a sentence is the first of these that any of its rows has.
 _WORST_FIRST: Final[tuple[Verdict, ...]] = (
     "contradicted",
     "differs",
@@ -17,9 +18,7 @@ _WORST_FIRST: Final[tuple[Verdict, ...]] = (
     "reproduced",
     "not tested",
 )
-"""The verdict of a sentence is the first of these that any of its rows has."""
-FORMULATIONS: Final = ("paper", "exact")
-"""Formulations that are counted; ``printed`` has a few rows only."""
+FORMULATIONS: Final = ("paper", "exact")  #: Formulations that are counted; ``printed`` has a few rows only.
 
 
 def by_sentence(rows: Iterable[Row], formulation: str) -> dict[str, Verdict]:

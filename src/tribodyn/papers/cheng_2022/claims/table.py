@@ -17,20 +17,12 @@ _ALIKE: Final = "alike"
 
 @dataclass(frozen=True)
 class Row:
-    """A claim with what we find.
+    """A claim with what we find."""
 
-    Attributes
-    ----------
-    claim
-        The claim.
-    findings
-        What is found with the defaults, by formulation.
-    judgements
-        What the ensemble makes of it, by formulation.
-    """
-
-    claim: Claim
+    claim: Claim  #: The claim.
+    #: What is found with the defaults, by formulation.
     findings: Mapping[str, Finding] = field(default_factory=dict)
+    #: What the ensemble makes of it, by formulation.
     judgements: Mapping[str, Judgement] = field(default_factory=dict)
 
     def verdict(self, formulation: str) -> Verdict:

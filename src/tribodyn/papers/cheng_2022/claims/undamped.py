@@ -11,12 +11,11 @@ from tribodyn.papers.cheng_2022.claims.bounds import VARIED, above
 from tribodyn.papers.cheng_2022.claims.forces import size
 from tribodyn.papers.cheng_2022.undamped import THREE_CYCLES, TOLERANCES, undamped
 
+#: The motion that is left is looked at in this time before the end, but after the reversal [s].
 _LATE: Final = 0.2
-"""The motion that is left is looked at in this time before the end, but after the reversal [s]."""
-_AT_REVERSAL: Final = 0.01
-"""A run that ends this soon after the first reversal ends in its impact [s]."""
+_AT_REVERSAL: Final = 0.01  #: A run that ends this soon after the first reversal ends in its impact [s].
+#: The paper's start: everything zero, and the trunnion falls through its clearance.
 _FALL: Final = {"start": "centred", "duration": "20 ms", "impact_window": "20 ms"}
-"""The paper's start: everything zero, and the trunnion falls through its clearance."""
 
 
 def _runs(trial: Trial, friction: str, start: Mapping[str, object] | None = None) -> list[xr.Dataset]:
@@ -57,6 +56,7 @@ _MAKES_ENERGY: Final = (
 )
 _ALL_END: Final = above(3.0, "of 4 tolerances", partly=0.0, by="the paper", since=VARIED)
 
+#: Claims on what happens without damping.
 CLAIMS: Final = (
     Claim(
         "undamped diverges, moment", _SENTENCES,
@@ -86,4 +86,3 @@ CLAIMS: Final = (
         "traction along the slip damps the rolling of the trunnion in its bushing", leave=SLOW,
     ),
 )  # fmt: skip
-"""Claims on what happens without damping."""

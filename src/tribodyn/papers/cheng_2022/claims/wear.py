@@ -23,8 +23,7 @@ from tribodyn.results.dataset import WEAR_SCATTER, json_attribute
 _WIDE: Final = CLEARANCES[-1]
 _LAST: Final = CYCLES[-1]
 _NANOMETRE: Final = 1e-9
-_INSIDE: Final = 0.5e-3
-"""Distance from the edge at which the ratio is given as well [m]."""
+_INSIDE: Final = 0.5e-3  #: Distance from the edge at which the ratio is given as well [m].
 
 
 def _depth(trial: Trial, clearance: float, cycles: int = _LAST) -> FloatArray:
@@ -93,6 +92,7 @@ def both_edges(trial: Trial) -> Finding:
 _PRESSURE: Final = "the edge pressure is several times higher with the lever moment that the paper leaves out"
 _DIVISOR: Final = "the wear rate is divided by the bare number 65, which no equation allows"
 
+#: Claims on wear.
 CLAIMS: Final = (
     Claim(
         "wear at the edges", ("W1", "A2", "K3"), "wear is concentrated on the edge of the bushing", "whole",
@@ -120,4 +120,3 @@ CLAIMS: Final = (
         "the paper does not say how near to the edge its grid ends", leave=MANY_RUNS,
     ),
 )  # fmt: skip
-"""Claims on wear."""

@@ -53,6 +53,7 @@ class CrankKeys(Group):
         )
 
 
+#: Names of loads that Python functions give, with their units.
 COMPONENTS: Final = {
     "force_x": "N",
     "force_y": "N",
@@ -61,7 +62,6 @@ COMPONENTS: Final = {
     "moment_x": "N m",
     "moment_y": "N m",
 }
-"""Names of loads that Python functions give, with their units."""
 
 
 class VaneLoad(ShaftLoad):
@@ -129,8 +129,7 @@ class VaneLoad(ShaftLoad):
 class _Shaken(NamedGroup):
     """Forces and a moment by their size."""
 
-    SIZE: ClassVar[str]
-    """Key of a signal that holds the sizes."""
+    SIZE: ClassVar[str]  #: Key of a signal that holds the sizes.
 
     force_x: float | None = quantity(None, "force along X", "", example="0.5 N")
     force_y: float | None = quantity(None, "force along Y", "", example="0.5 N")

@@ -86,12 +86,12 @@ def balance_columns(rows: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     return energy_columns(rows, TERMS | expansion, BALANCES)
 
 
+#: Why a run in ``paper`` or ``printed`` may leave the range of the contact law: see the manual, two energy
+#: balances.
 GAINS_ENERGY: Final = (
     "the equations of formulation {!r} can gain energy in an impact, with damping and at small loads too; "
     "compare with mechanism.formulation = 'exact'"
 )
-"""Why a run in ``paper`` or ``printed`` may leave the range of the contact law: see the manual, two energy
-balances."""
 
 
 def warnings(

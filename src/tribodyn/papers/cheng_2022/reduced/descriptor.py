@@ -18,6 +18,7 @@ from tribodyn.results.variables import (
     of_reversals_described,
 )
 
+#: Numbers of each cycle that a wear campaign keeps.
 OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_pressure_max": Variable("Pa", "largest contact pressure in the cycle, impacts included", JUMP),
     "wear_pressure_mean": Variable("Pa", "peak contact pressure, mean over the cycle", JUMP),
@@ -27,8 +28,8 @@ OF_CYCLE: Final[dict[str, Variable]] = {
     "wear_angle_error_rms": Variable("rad", "vane-angle error, rms over the cycle", JUMP),
     **OUTPUTS_OF_CYCLE,
 }
-"""Numbers of each cycle that a wear campaign keeps."""
 
+#: By name.
 VARIABLES: Final[dict[str, Variable]] = {
     **described(MOTION, COLLAR, REACTIONS, AIR, ENERGIES),
     **of_reversals_described(WATCHED),
@@ -53,7 +54,6 @@ VARIABLES: Final[dict[str, Variable]] = {
     "energy_clearance_damping": Variable("J", "clearance motion: damping heat"),
     "energy_clearance_residual": Variable("J", "error of the energy balance of the clearance motion"),
 }
-"""By name."""
 
 
 _POLYIMIDE: Final = "makeitfrom.com, 40% Graphite Thermoset PI (ASTM D6456 Type II Class 2), to 260 degC"

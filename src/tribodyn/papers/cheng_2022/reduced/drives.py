@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from tribodyn.cases.signals import AngleTable, PositionTable, SpeedTable
     from tribodyn.papers.cheng_2022.reduced.actions import CrankKeys
 
+#: Of a table's largest angle or speed: what end and beginning may differ by where it is repeated.
 _CLOSED: Final = 1.0e-6
-"""Of a table's largest angle or speed: what end and beginning may differ by where it is repeated."""
 _MOST_PIECES: Final = 1_000_000
 
 

@@ -17,13 +17,12 @@ from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.functions import kinetostatic_residual
 from tribodyn.mechanisms.balance import damped_newton
 
+#: Vane speed [rad/s] at which the traction is saturated for any slip velocity that makes sense.
 FULLY_SLIDING: Final = 1.0e3
-"""Vane speed [rad/s] at which the traction is saturated for any slip velocity that makes sense."""
 
-_START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)
-"""Separations over σ tried for the first guess."""
+_START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)  #: Separations over σ tried for the first guess.
+#: Moments over the half length of the bushing, over the force, that lay opposite ends against it.
 _MOMENTS_RULE: Final = 2.0
-"""Moments over the half length of the bushing, over the force, that lay opposite ends against it."""
 
 
 def equilibrium(

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+#: Name of each quantity among those that are observed; its ideal value has the ending ``_ideal``.
 _OBSERVED: Final = {"angle": "theta_v", "angular_velocity": "omega_v"}
-"""Name of each quantity among those that are observed; its ideal value has the ending ``_ideal``."""
 
 
 class VaneOutput(ErrorKeys):
@@ -45,10 +45,9 @@ class VaneOutput(ErrorKeys):
     )
 
 
+#: Signs of e_x, e_y, φ_x and φ_y, which is left-handed, over right-handed ones.
 _HANDS: Final = np.array([1.0, 1.0, 1.0, -1.0])
-"""Signs of e_x, e_y, φ_x and φ_y, which is left-handed, over right-handed ones."""
-DEFAULT: Final = {"outputs.vane.quantity": "angle"}
-"""The output that every case has."""
+DEFAULT: Final = {"outputs.vane.quantity": "angle"}  #: The output that every case has.
 
 
 def output_columns(
@@ -148,36 +147,19 @@ def _speed_error(dataset: xr.Dataset) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Peak:
-    """A maximum that is given twice, outside the impacts and with them, and the sustained maximum.
+    """A maximum that is given twice, outside the impacts and with them, and the sustained maximum."""
 
-    Attributes
-    ----------
-    names
-        Of the number outside and of the one with impacts.
-    sustained
-        Name of the sustained maximum; empty where an output has it.
-    label, unit, group, meaning
-        See :class:`~tribodyn.results.summary.KeyResult`.
-    quantity
-        Name of the quantity among those whose peaks results hold.
-    scale
-        The unit of the result over that of the number.
-    values
-        The quantity over time.
-    digits
-        How many digits of the peak hold.
-    """
-
-    names: tuple[str, str]
+    names: tuple[str, str]  #: Of the number outside and of the one with impacts.
+    #: See :class:`~tribodyn.results.summary.KeyResult`.
     label: str
     unit: str
     group: str
     meaning: str
-    quantity: str
-    scale: float
-    values: Callable[[xr.Dataset], FloatArray]
-    digits: int = 2
-    sustained: str = ""
+    quantity: str  #: Name of the quantity among those whose peaks results hold.
+    scale: float  #: The unit of the result over that of the number.
+    values: Callable[[xr.Dataset], FloatArray]  #: The quantity over time.
+    digits: int = 2  #: How many digits of the peak hold.
+    sustained: str = ""  #: Name of the sustained maximum; empty where an output has it.
 
     @property
     def key_results(self) -> dict[str, KeyResult]:
@@ -281,6 +263,7 @@ _LOADS: Final = (
     ),
 )
 
+#: By name, in reading order.
 KEY_RESULTS: Final[dict[str, KeyResult]] = {
     "reversals": KeyResult(
         "Reversals held",
@@ -349,8 +332,8 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         digits=2,
     ),
 }
-"""By name, in reading order."""
 
+#: Most important key results.
 KEY_NUMBERS: Final = (
     "vane_angle_error_outside_deg",
     "contact_force_outside_N",
@@ -360,4 +343,3 @@ KEY_NUMBERS: Final = (
     "wear_depth_rate_nm_per_1000_cycles",
     "clearance_energy_residual_percent",
 )
-"""Most important key results."""

@@ -20,12 +20,10 @@ from tribodyn.mechanisms.shaft_loads import Term, crossings
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
+#: Formulations, each with its number in the kernels.
 FORMULATIONS: Final = {"exact": 1.0, "paper": 0.0, "printed": -1.0}
-"""Formulations, each with its number in the kernels."""
-LEAST_SWING: Final = 1.0e-9
-"""Of the crank: one that moves less passes no angle at a time of its own [rad]."""
-_LEAST_RANGE: Final = 1.0e-4
-"""Of the crank, where a run ends before it has moved far [rad]."""
+LEAST_SWING: Final = 1.0e-9  #: Of the crank: one that moves less passes no angle at a time of its own [rad].
+_LEAST_RANGE: Final = 1.0e-4  #: Of the crank, where a run ends before it has moved far [rad].
 
 
 def _with_room(low: float, high: float) -> tuple[float, float]:
@@ -127,18 +125,10 @@ class CrankMotion:
 
 @dataclass(frozen=True)
 class TableDrive:
-    """Crank motion from a table.
+    """Crank motion from a table."""
 
-    Attributes
-    ----------
-    signal
-        Crank angle over time [rad, s], from 0 to the end of the longest run.
-    period
-        Time of one drive cycle [s]: the length of the table.
-    """
-
-    signal: Signal
-    period: float
+    signal: Signal  #: Crank angle over time [rad, s], from 0 to the end of the longest run.
+    period: float  #: Time of one drive cycle [s]: the length of the table.
 
     @property
     def impact_time(self) -> float:
@@ -186,56 +176,32 @@ AnyDrive: TypeAlias = CrankMotion | TableDrive
 
 @dataclass(frozen=True)
 class AirLoads:
-    """Aerodynamic loads of Table 3.
+    """Aerodynamic loads of Table 3."""
 
-    Attributes
-    ----------
-    force_x, force_y
-        [N]; F_airx changes its sign from minus to plus where θ_v passes ``switch_angle``.
-    moment
-        Size of M_air, which opposes the motion [N m].
-    switch_angle, switch_width
-        [rad].
-    """
-
+    #: [N]; F_airx changes its sign from minus to plus where θ_v passes ``switch_angle``.
     force_x: float
     force_y: float
-    moment: float
+    moment: float  #: Size of M_air, which opposes the motion [N m].
+    #: [rad].
     switch_angle: float
     switch_width: float
 
 
 @dataclass(frozen=True)
 class Vsv:
-    """The mechanism with its clearance joint.
+    """The mechanism with its clearance joint."""
 
-    Attributes
-    ----------
-    formulation
-        ``exact``, ``paper`` or ``printed``, see the theory manual.
-    lengths, inertias, drive, air
-        See their classes.
-    gravity
-        Acceleration of gravity [m/s²].
-    collar_radius
-        Radius r_t of the thrust collar [m].
-    joint
-        The trunnion in its bushing.
-    terms
-        Loads from tables; targets and coordinates as in ``kernels/vsv/data.py``.
-    opening
-        What the clearance has more than that of the joint over time [m, s]; None where it is constant.
-    """
-
-    formulation: str
+    formulation: str  #: ``exact``, ``paper`` or ``printed``, see the theory manual.
+    #: See their classes.
     lengths: Lengths
     inertias: Inertias
     drive: AnyDrive
     air: AirLoads
-    gravity: float
-    collar_radius: float
-    joint: BushingJoint
-    terms: tuple[Term, ...] = ()
+    gravity: float  #: Acceleration of gravity [m/s²].
+    collar_radius: float  #: Radius r_t of the thrust collar [m].
+    joint: BushingJoint  #: The trunnion in its bushing.
+    terms: tuple[Term, ...] = ()  #: Loads from tables; targets and coordinates as in ``kernels/vsv/data.py``.
+    #: What the clearance has more than that of the joint over time [m, s]; None where it is constant.
     opening: Signal | None = None
 
     def __post_init__(self) -> None:

@@ -17,10 +17,9 @@ from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 
 _SCAN: Final = 1441
 _BLOCK: Final = 32
-_BISECTIONS: Final = 50
-"""From the spacing of the scan to below rounding."""
+_BISECTIONS: Final = 50  #: From the spacing of the scan to below rounding.
+#: Depth to which the closure falls between the assemblies, over its height elsewhere, when they meet: 2°.
 _MEETING: Final = 1.0e-4
-"""Depth to which the closure falls between the assemblies, over its height elsewhere, when they meet: 2°."""
 
 
 def closure(lengths: Lengths, theta_a: FloatArray, theta_v: FloatArray) -> FloatArray:

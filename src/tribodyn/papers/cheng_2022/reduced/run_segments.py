@@ -15,43 +15,25 @@ from tribodyn.mechanisms.shaft_loads import Term, crossings, inside, kinks_over,
 from tribodyn.papers.cheng_2022.reduced.parameters import AnyDrive, Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import dead_centres, ideal_table
 
-CLEARANCE_ROOM: Final = 0.01
-"""Largest change of θ_v by clearance, generously [rad]."""
+CLEARANCE_ROOM: Final = 0.01  #: Largest change of θ_v by clearance, generously [rad].
 
 
 @dataclass(frozen=True)
 class RunSegments:
-    """Events of a run.
+    """Events of a run."""
 
-    Attributes
-    ----------
-    turns
-        Times strictly inside the run at which the ideal vane reverses, stops or starts [s], shape (n_turns,).
-    breaks
-        These, and where something kinks [s], shape (n,).
-    segments
-        What holds between, as kernels read it, shape (n + 1,).
-    """
-
+    #: Times strictly inside the run at which the ideal vane reverses, stops or starts [s], shape (n_turns,).
     turns: FloatArray
-    breaks: FloatArray
-    segments: Any
+    breaks: FloatArray  #: These, and where something kinks [s], shape (n,).
+    segments: Any  #: What holds between, as kernels read it, shape (n + 1,).
 
 
 @dataclass(frozen=True)
 class IdealMotion:
-    """The ideal mechanism over time.
+    """The ideal mechanism over time."""
 
-    Attributes
-    ----------
-    drive
-        Motion of the crank.
-    curve
-        θ_v over θ_a [rad].
-    """
-
-    drive: AnyDrive
-    curve: Cubics
+    drive: AnyDrive  #: Motion of the crank.
+    curve: Cubics  #: θ_v over θ_a [rad].
 
     def vane_angle(self, times: FloatArray) -> FloatArray:
         """Return θ_v [rad] at times [s]."""

@@ -55,15 +55,15 @@ from tribodyn.papers.cheng_2022.reduced.times import following, output_times, sn
 from tribodyn.results.dataset import CARRIED
 from tribodyn.wear import loaded_depth
 
+#: Coordinates from which the angle of the vane follows.
 _POSE: Final = ("theta_a", "e_x", "e_y", "phi_x", "phi_y")
-"""Coordinates from which the angle of the vane follows."""
+#: Coordinates that tables over angles and speeds follow.
 _FOLLOWED: Final = {
     ("the vane", "angles"): "theta_v",
     ("the crank", "angles"): "theta_a",
     ("the vane", "speeds"): "omega_v",
     ("the crank", "speeds"): "omega_a",
 }
-"""Coordinates that tables over angles and speeds follow."""
 
 
 def vsv_of(case: VsvCase) -> Vsv:

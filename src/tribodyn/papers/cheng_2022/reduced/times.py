@@ -17,13 +17,13 @@ from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Lengths, 
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
 from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_segments
 
+#: Quantities whose peaks are kept where there are more steps than rows.
 _WATCHED: Final = tuple(
     (OBSERVED.index(name),) for name in ("F_cx", "F_cy", "F_kx", "F_ky", "damping_power", "p_max", "M_d")
 )
-"""Quantities whose peaks are kept where there are more steps than rows."""
 _STRIDE: Final = 3
+#: Share of the vane's range by which pictures near the reversals stand off their impacts.
 _END_SHARE: Final = 0.02
-"""Share of the vane's range by which pictures near the reversals stand off their impacts."""
 
 
 def output_times(case: VsvCase, vsv: Vsv, duration: float) -> FloatArray:

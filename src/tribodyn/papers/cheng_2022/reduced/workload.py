@@ -9,14 +9,13 @@ from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, MOST_CLOSE
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
+#: Steps of a reversal at ``rtol`` 1e-3, measured over 2 and 40 cycles and with drives of 1 and 10 rad/s.
 _STEPS_OF_REVERSAL: Final = 1150.0
-"""Steps of a reversal at ``rtol`` 1e-3, measured over 2 and 40 cycles and with drives of 1 and 10 rad/s."""
+#: Steps of a second between impacts, where the trunnion rings at 30 Hz, from the same.
 _STEPS_OF_SECOND: Final = 100.0
-"""Steps of a second between impacts, where the trunnion rings at 30 Hz, from the same."""
 _TOLERANCE_POWER: Final = -0.1
 _SNAPSHOTS: Final = 6.0
-_STRIDE: Final = 3.0
-"""Steps per sample that follows them, see ``times.py``."""
+_STRIDE: Final = 3.0  #: Steps per sample that follows them, see ``times.py``.
 
 
 def workload(case: VsvCase) -> Workload:

@@ -12,10 +12,9 @@ from tribodyn.joints.shapes import Points
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
-JUDGED: Final = "calibrated"
-"""The factor that is judged at every height."""
-_FORCE: Final = 100.0
-"""Largest force of the undamped impact [N]; the restitution does not depend on it."""
+JUDGED: Final = "calibrated"  #: The factor that is judged at every height.
+_FORCE: Final = 100.0  #: Largest force of the undamped impact [N]; the restitution does not depend on it.
+#: Surfaces of the impact; neither they nor the radius change the restitution.
 _PAIR: Final = SurfacePair(
     young_modulus=(70e9, 70e9),
     poisson_ratio=(0.3, 0.3),
@@ -24,11 +23,10 @@ _PAIR: Final = SurfacePair(
     asperity_density=1e11,
     asperity_radius=1e-5,
 )
-"""Surfaces of the impact; neither they nor the radius change the restitution."""
 
 
+#: A ball in a race so much larger that it is a plane.
 _BALL = Points(radius=0.02, clearance=1.0, length=1.0, heights=(0.0,))
-"""A ball in a race so much larger that it is a plane."""
 
 
 def compare(one: ValidationSet) -> Outcome:

@@ -15,18 +15,14 @@ from tribodyn.validation.catalogue import ValidationSet
 FRICTION: Final = FitParameter("friction", 0.1, 10.0)
 PLAY: Final = FitParameter("play", 0.1, 5.0)
 STIFFNESS: Final = FitParameter("stiffness", 50.0, 2000.0)
+#: Friction [N m], play [deg], stiffness [N m/rad], zero of the deflection [deg].
 ZERO: Final = FitParameter("zero", -2.0, 2.0)
-"""Friction [N m], play [deg], stiffness [N m/rad], zero of the deflection [deg]."""
 START: Final = {"friction": 2.0, "play": 1.5, "stiffness": 300.0, "zero": 0.0}
-_RATE: Final = 4.0
-"""Change of the torque over time [N m/s]."""
-_PAUSE: Final = 1e-4
-"""Least time between two rows, over that of 1 N m."""
-_FAR: Final = 90.0
-"""Angle at which the table of the spring ends [deg]."""
+_RATE: Final = 4.0  #: Change of the torque over time [N m/s].
+_PAUSE: Final = 1e-4  #: Least time between two rows, over that of 1 N m.
+_FAR: Final = 90.0  #: Angle at which the table of the spring ends [deg].
 _SAMPLES: Final = 2000
-_STIFF_ROWS: Final = 4
-"""Every so many of the rows of the stiffness test is used."""
+_STIFF_ROWS: Final = 4  #: Every so many of the rows of the stiffness test is used.
 
 
 @dataclass(frozen=True)

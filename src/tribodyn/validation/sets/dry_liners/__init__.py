@@ -12,10 +12,8 @@ from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
 LINER: Final = "ptfe-liner"
-DEPTH_LIMIT: Final = "0.1 mm"
-"""Depth at which a life ends; the factor stated with it does not depend on it."""
-_WEAR_UNIT: Final = 1e-15
-"""1e-6 mm³/(N m) [m²/N]."""
+DEPTH_LIMIT: Final = "0.1 mm"  #: Depth at which a life ends; the factor stated with it does not depend on it.
+_WEAR_UNIT: Final = 1e-15  #: 1e-6 mm³/(N m) [m²/N].
 
 
 def compare(one: ValidationSet) -> Outcome:

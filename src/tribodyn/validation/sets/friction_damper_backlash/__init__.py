@@ -12,39 +12,32 @@ from tribodyn.studies.least_squares import FitParameter, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot, rms
 from tribodyn.validation.catalogue import ValidationSet
 
+#: Play [mm], stiffness of take-up [kN/mm], friction forces while the rod moves up and down [kN].
 PARAMETERS: Final = (
     FitParameter("play", 0.5, 10.0),
     FitParameter("stiffness", 1.0, 20.0),
     FitParameter("plus", 1.0, 30.0),
     FitParameter("minus", 1.0, 30.0),
 )
-"""Play [mm], stiffness of take-up [kN/mm], friction forces while the rod moves up and down [kN]."""
-JULY: Final = ("20", "35", "80")
-"""Band tensions of July [lb]."""
+JULY: Final = ("20", "35", "80")  #: Band tensions of July [lb].
 FITTED: Final = "loop_0p5Hz_35lb.csv"
+#: Loop that is fitted, loop of half the amplitude that is predicted, and its name.
 APRIL: Final = (
     ("april_set2_30lb_0p25Hz_1in.csv", "april_set2_30lb_0p25Hz_0p5in.csv", "set 2"),
     ("april_set3_30lb_0p25Hz_1in.csv", "april_set3_30lb_0p5Hz_0p5in.csv", "set 3"),
 )
-"""Loop that is fitted, loop of half the amplitude that is predicted, and its name."""
 STRONG: Final = "april_set2_36lb_0p25Hz_1in.csv"
 EARTHQUAKE: Final = "earthquake_ImperialValleyDBE.csv"
+#: Places in the play at the start of the earthquake, over the play.
 STARTS: Final = (-0.5, -0.25, 0.0, 0.25, 0.5)
-"""Places in the play at the start of the earthquake, over the play."""
-_OUTWARD: Final = (0.2, 0.85)
-"""Part of the amplitude over which a plateau is the mean force."""
+_OUTWARD: Final = (0.2, 0.85)  #: Part of the amplitude over which a plateau is the mean force.
 
 
 @dataclass(frozen=True)
 class DamperRecord:
-    """A measured force over displacement; of a loop one cycle, its first row again at the end.
+    """A measured force over displacement; of a loop one cycle, its first row again at the end."""
 
-    Attributes
-    ----------
-    time, displacement, force
-        Shapes (n,) [s], [mm], [kN].
-    """
-
+    #: Shapes (n,) [s], [mm], [kN].
     time: FloatArray
     displacement: FloatArray
     force: FloatArray

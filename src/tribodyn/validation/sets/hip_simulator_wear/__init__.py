@@ -11,12 +11,9 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
-SWING: Final = 0.95
-"""Amplitude of the load over its mean: it is nearly gone between two steps."""
-MEAN: Final = 1.0e3
-"""Mean of a sinusoidal load of 2 kN at most [N]."""
-CLARKE: Final = 11.0
-"""Radius of the head of the set ``clarke`` [mm]."""
+SWING: Final = 0.95  #: Amplitude of the load over its mean: it is nearly gone between two steps.
+MEAN: Final = 1.0e3  #: Mean of a sinusoidal load of 2 kN at most [N].
+CLARKE: Final = 11.0  #: Radius of the head of the set ``clarke`` [mm].
 SAIKKO: Final = 16.0
 _ANGLE: Final = math.radians(23.0)
 

@@ -18,8 +18,7 @@ from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 
-JUDGED_SPEED: Final = 250.0
-"""Speed at which the film is judged [rpm]."""
+JUDGED_SPEED: Final = 250.0  #: Speed at which the film is judged [rpm].
 _NULL: Final = "isothermal_peak_computed_kPa"
 
 

@@ -15,8 +15,8 @@ from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 
+#: Speeds of the measured curves [rpm], falling, so that each equilibrium starts from the one before.
 SPEEDS: Final = np.array([140.0, 130.0, 120.0, 110.0, 100.0, 90.0, 80.0, 70.0, 60.0, 55.0, 50.0, 45.0, 42.0])
-"""Speeds of the measured curves [rpm], falling, so that each equilibrium starts from the one before."""
 _SEARCHED: Final = (
     "The inputs were searched for with the band known; 27 of 300 random choices have the shape."
 )

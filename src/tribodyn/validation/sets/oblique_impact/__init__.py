@@ -13,12 +13,9 @@ from tribodyn.validation.catalogue import ValidationSet, varied
 from tribodyn.validation.sets.oblique_impact.rebound import ImpactingSphere, Rebound, TangentialLaw, rebound
 
 LAWS: Final[tuple[TangentialLaw, ...]] = ("regularised", "compliant")
-SLIDING: Final = 30.0
-"""Angle from which both laws are judged alike [deg]."""
-STICKING: Final = 25.0
-"""Angle below which the contact sticks for a part of the time [deg]."""
-PLAIN_FAILS: Final = 10.0
-"""Angle below which regularised friction must be shown failing [deg]."""
+SLIDING: Final = 30.0  #: Angle from which both laws are judged alike [deg].
+STICKING: Final = 25.0  #: Angle below which the contact sticks for a part of the time [deg].
+PLAIN_FAILS: Final = 10.0  #: Angle below which regularised friction must be shown failing [deg].
 
 
 def compare(one: ValidationSet) -> Outcome:

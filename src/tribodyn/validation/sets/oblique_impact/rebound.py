@@ -23,40 +23,28 @@ import numpy as np
 from tribodyn.contact.damping_factors import DAMPING_FACTORS
 
 TangentialLaw = Literal["regularised", "compliant"]
-STEPS: Final = 2000
-"""Steps per duration of the undamped impact."""
+STEPS: Final = 2000  #: Steps per duration of the undamped impact.
 _SPRINGS: Final = 200
+#: Duration of Hertz's impact in units of the largest penetration over the speed of approach.
 _DURATION: Final = 2.9432752
-"""Duration of Hertz's impact in units of the largest penetration over the speed of approach."""
-_INERTIA: Final = 0.4
-"""Moment of inertia of a homogeneous sphere over m R²."""
-_DEEPER: Final = 1.05
-"""Room for the penetration of a damped impact, over that of the undamped one."""
+_INERTIA: Final = 0.4  #: Moment of inertia of a homogeneous sphere over m R².
+_DEEPER: Final = 1.05  #: Room for the penetration of a damped impact, over that of the undamped one.
 
 
 @dataclass(frozen=True)
 class ImpactingSphere:
-    """A sphere, the plate that it hits and the contact between them.
+    """A sphere, the plate that it hits and the contact between them."""
 
-    Attributes
-    ----------
-    radius, density
-        Of the sphere [m, kg/m³].
-    young_modulus, poisson_ratio
-        Of sphere and plate [Pa, 1].
-    friction, restitution
-        Coefficient of friction μ and normal restitution e [1].
-    slip_velocity
-        Slip u_s at which regularised friction is developed to 71 % [m/s].
-    """
-
+    #: Of the sphere [m, kg/m³].
     radius: float
     density: float
+    #: Of sphere and plate [Pa, 1].
     young_modulus: tuple[float, float]
     poisson_ratio: tuple[float, float]
+    #: Coefficient of friction μ and normal restitution e [1].
     friction: float
     restitution: float
-    slip_velocity: float = 1.0e-3
+    slip_velocity: float = 1.0e-3  #: Slip u_s at which regularised friction is developed to 71 % [m/s].
 
     @property
     def mass(self) -> float:
@@ -83,18 +71,12 @@ class ImpactingSphere:
 
 @dataclass(frozen=True)
 class Rebound:
-    """State after an impact.
+    """State after an impact."""
 
-    Attributes
-    ----------
-    normal, tangential
-        Velocities of the centre after over before the impact [1].
-    spin
-        Angular velocity [rad/s], positive where the contact point moves against the tangential velocity.
-    """
-
+    #: Velocities of the centre after over before the impact [1].
     normal: float
     tangential: float
+    #: Angular velocity [rad/s], positive where the contact point moves against the tangential velocity.
     spin: float
 
     def angle(self, incidence: float) -> float:

@@ -12,21 +12,20 @@ from tribodyn.validation.base import Comparison, Curve, Outcome, Plot, rms
 from tribodyn.validation.catalogue import ValidationSet
 from tribodyn.wear import Archard
 
+#: Rates [um/m], distance of running-in [m], loss at the beginning [um].
 PARAMETERS: Final = (
     FitParameter("first_rate", 0.0, 5.0),
     FitParameter("later_rate", 0.0, 5.0),
     FitParameter("distance", 1.0, 500.0, True),
     FitParameter("zero", -50.0, 50.0),
 )
-"""Rates [um/m], distance of running-in [m], loss at the beginning [um]."""
+#: Share of PTFE [%], load and run of each open curve.
 CURVES: Final = (
     *(("30", "60N", "1"), ("30", "60N", "2"), ("30", "100N", "1"), ("30", "100N", "2")),
     *(("15", "60N", "1"), ("0", "60N", "1"), ("0", "60N", "2")),
 )
-"""Share of PTFE [%], load and run of each open curve."""
 REPEATED: Final = (("30", "60N"), ("30", "100N"))
-LOADS: Final = {"60N": "59.8", "100N": "98.1"}
-"""Loads by the names of files, as in the table."""
+LOADS: Final = {"60N": "59.8", "100N": "98.1"}  #: Loads by the names of files, as in the table.
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,9 @@ from tribodyn.simulation import simulate
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 
-MEASURED_RATIO: Final = 1.5
-"""Ratio of the first torques with interference and with clearance."""
-CLEARANCES: Final = (20.0, 40.0, 80.0)
-"""Radial clearances of the wrist of the slider-crank [um]."""
-SPEEDS: Final = (500.0, 1000.0, 2000.0)
-"""Speeds of its motor [rpm]."""
+MEASURED_RATIO: Final = 1.5  #: Ratio of the first torques with interference and with clearance.
+CLEARANCES: Final = (20.0, 40.0, 80.0)  #: Radial clearances of the wrist of the slider-crank [um].
+SPEEDS: Final = (500.0, 1000.0, 2000.0)  #: Speeds of its motor [rpm].
 
 
 def compare(one: ValidationSet) -> Outcome:

@@ -15,12 +15,10 @@ from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 from tribodyn.validation.sets.published_statements import torque_ratio
 
+#: Velocities of the mass in the gap [mm/s]: the larger, the larger the amplitude.
 VELOCITIES: Final = (10.0, 20.0, 50.0)
-"""Velocities of the mass in the gap [mm/s]: the larger, the larger the amplitude."""
-CLEARANCES: Final = ("5 um", "50 um", "350 um")
-"""Radial clearances of a bushing."""
-PEAKS: Final = ("20 um", "40 um", "80 um")
-"""Radial clearances of the wrist of the slider-crank."""
+CLEARANCES: Final = ("5 um", "50 um", "350 um")  #: Radial clearances of a bushing.
+PEAKS: Final = ("20 um", "40 um", "80 um")  #: Radial clearances of the wrist of the slider-crank.
 _MASS: Final = 1.0
 _STIFFNESS: Final = 1e3
 _OIL: Final = {"joints.wrist.film.viscosity": "0.01 Pa s"}

@@ -12,13 +12,13 @@ from tribodyn.studies.least_squares import FitParameter, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot, rms
 from tribodyn.validation.catalogue import ValidationSet
 
+#: Forces [N], viscous coefficient [N s/m], speed [m/s].
 PARAMETERS: Final = (
     FitParameter("coulomb", 0.0, 60.0),
     FitParameter("viscous", 0.0, 300.0),
     FitParameter("stribeck", 0.0, 100.0),
     FitParameter("stribeck_speed", 1e-3, 0.5, True),
 )
-"""Forces [N], viscous coefficient [N s/m], speed [m/s]."""
 
 
 def compare(one: ValidationSet) -> Outcome:

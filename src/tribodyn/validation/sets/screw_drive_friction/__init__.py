@@ -49,12 +49,12 @@ def _both(parameters: tuple[FitParameter, ...]) -> tuple[FitParameter, ...]:
     )
 
 
+#: Laws by name, with the parameters that are fitted; torques in mN m, speeds in rad/s.
 LAWS: Final[dict[str, tuple[Law, tuple[FitParameter, ...]]]] = {
     "Coulomb + viscous": (symmetric, (_PAYLOAD, *_MOVING)),
     "Stribeck": (symmetric, (_PAYLOAD, *_MOVING, *_STRIBECK)),
     "Stribeck by direction": (by_direction, _both((*_MOVING, *_STRIBECK))),
 }
-"""Laws by name, with the parameters that are fitted; torques in mN m, speeds in rad/s."""
 
 
 def measured(one: ValidationSet, drive: str) -> tuple[FloatArray, FloatArray]:
@@ -71,6 +71,7 @@ def fitted(one: ValidationSet, drive: str, name: str) -> LeastSquares:
     return fit(lambda given: (law(given, speed) - torque) / np.abs(torque), parameters)
 
 
+#: Bands by drive and law; other fits are reported.
 JUDGED: Final = {
     ("1", "Coulomb + viscous"): "null_1",
     ("1", "Stribeck"): "fit_1",
@@ -79,7 +80,6 @@ JUDGED: Final = {
     ("3", "Stribeck"): "null_3",
     ("3", "Stribeck by direction"): "fit_3",
 }
-"""Bands by drive and law; other fits are reported."""
 
 
 def compare(one: ValidationSet) -> Outcome:

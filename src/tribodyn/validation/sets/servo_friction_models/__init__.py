@@ -95,5 +95,5 @@ def _m6(p: Parameters, w: float, motor: float, load: float) -> float:
     return base
 
 
+#: The six models, each written out separately.
 REFERENCES: Final = {"m1": _m1, "m2": _m2, "m3": _m3, "m4": _m4, "m5": _m5, "m6": _m6}
-"""The six models, each written out separately."""

@@ -11,8 +11,7 @@ from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet
 
-VOLTAGES: Final = np.array([8.0, 10.0, 12.0])
-"""Supply voltages [V]."""
+VOLTAGES: Final = np.array([8.0, 10.0, 12.0])  #: Supply voltages [V].
 _DIRECT: Final = ("yes", "partly")
 
 

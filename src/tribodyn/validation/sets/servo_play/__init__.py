@@ -12,13 +12,13 @@ from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import Input, ValidationSet
 
 SINGLE: Final = "single STS3215"
+#: Play and dead band [deg], compliance [deg/(N m)], torque [N m].
 PARAMETERS: Final = (
     FitParameter("play", 0.0, 3.0),
     FitParameter("compliance", 0.0, 20.0),
     FitParameter("torque", 0.0, 1.0),
     FitParameter("dead_band", 0.0, 1.0),
 )
-"""Play and dead band [deg], compliance [deg/(N m)], torque [N m]."""
 
 
 def compare(one: ValidationSet) -> Outcome:

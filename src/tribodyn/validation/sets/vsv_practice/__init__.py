@@ -14,13 +14,13 @@ from tribodyn.simulation import simulate
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 
+#: Changes of the case for a ring that is pulled by hand.
 STILL_AIR: Final = {
     "loads.air_force_x": "0 N",
     "loads.air_force_y": "0 N",
     "loads.air_moment": "0 N m",
     "run.cycles": 1,
 }
-"""Changes of the case for a ring that is pulled by hand."""
 
 
 def compare(one: ValidationSet) -> Outcome:

@@ -18,13 +18,13 @@ def test_a_valid_short_run_of_a_drive_that_would_go_out_of_reach_runs() -> None:
     assert result.sizes["time"] > 5
 
 
+#: Names that users may rely on, over time.
 EVERY_MOMENT = [
     *("e_x", "e_y", "phi_x", "phi_y", "e_x_dot", "e_y_dot", "phi_x_dot", "phi_y_dot"),
     *("theta_a", "theta_b", "theta_v", "theta_v_ideal", "omega_v", "omega_v_ideal"),
     *("F_cx", "F_cy", "F_kx", "F_ky", "F_dx", "F_dy", "F_fx", "F_fy", "F_cz"),
     *("M_jcx", "M_jcy", "M_tcx", "M_tcy", "M_jf", "M_tf", "p_max", "F_21x", "F_32x", "F_43x", "F_bx", "M_d"),
 ]
-"""Names that users may rely on, over time."""
 FACTS = [
     "case",
     "tribodyn_version",

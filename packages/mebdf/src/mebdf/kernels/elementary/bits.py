@@ -5,16 +5,11 @@ from typing import Any, Final
 
 from mebdf.compiled.kernel import UNCOMPILED, Instruction
 
-MANTISSA: Final = 52
-"""Bits of a mantissa."""
-BIAS: Final = 1023
-"""Offset of an exponent."""
-FRACTION: Final = (1 << MANTISSA) - 1
-"""Bits of the fraction of a number."""
-ONE: Final = BIAS << MANTISSA
-"""The bits of 1."""
-SIGN: Final = -(1 << 63)
-"""The sign bit."""
+MANTISSA: Final = 52  #: Bits of a mantissa.
+BIAS: Final = 1023  #: Offset of an exponent.
+FRACTION: Final = (1 << MANTISSA) - 1  #: Bits of the fraction of a number.
+ONE: Final = BIAS << MANTISSA  #: The bits of 1.
+SIGN: Final = -(1 << 63)  #: The sign bit.
 
 
 def _uncompiled_bits(number: float) -> int:
@@ -28,9 +23,9 @@ def _uncompiled_number(bits: int) -> float:
 
 
 _MODULE: Final = "mebdf.kernels.elementary.instructions"
+#: Return the bits of a number as a signed integer.
 bits_of: Final[Any] = _uncompiled_bits if UNCOMPILED else Instruction(_uncompiled_bits, _MODULE, "bits")
-"""Return the bits of a number as a signed integer."""
+#: Return the number with these bits.
 number_of: Final[Any] = (
     _uncompiled_number if UNCOMPILED else Instruction(_uncompiled_number, _MODULE, "number")
 )
-"""Return the number with these bits."""

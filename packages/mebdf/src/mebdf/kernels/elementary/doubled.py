@@ -9,8 +9,7 @@ from typing import Final
 
 from mebdf.kernels.jit import kernel
 
-_SPLITTER: Final = 134217729.0
-"""2²⁷ + 1."""
+_SPLITTER: Final = 134217729.0  #: 2²⁷ + 1.
 
 
 @kernel

@@ -13,8 +13,7 @@ from mebdf.kernels.jit import kernel
 
 _TERMS: Final = 24
 _STEP: Final = 0.5
-_LONGEST: Final = 14
-"""Terms of the trapezoidal rule: e^(−49) is left out."""
+_LONGEST: Final = 14  #: Terms of the trapezoidal rule: e^(−49) is left out.
 
 
 @kernel

@@ -12,14 +12,11 @@ from mebdf.kernels.elementary.constants import POWERS, STEP, STEPS, STEPS_PER_UN
 from mebdf.kernels.elementary.doubled import ordered_sum, quotient_of, sum_of
 from mebdf.kernels.jit import kernel
 
-LARGEST: Final = 710.0
-"""e^710 overflows."""
-SMALLEST: Final = -746.0
-"""e^−746 is zero."""
+LARGEST: Final = 710.0  #: e^710 overflows.
+SMALLEST: Final = -746.0  #: e^−746 is zero.
+#: 1.5 · 2⁵²: added and subtracted it rounds to the nearest whole number.
 ROUNDING: Final = 6755399441055744.0
-"""1.5 · 2⁵²: added and subtracted it rounds to the nearest whole number."""
-_NORMAL: Final = 1021
-"""Exponents that a factor between ½ and 2 does not take out of the range of numbers."""
+_NORMAL: Final = 1021  #: Exponents that a factor between ½ and 2 does not take out of the range of numbers.
 
 
 @kernel

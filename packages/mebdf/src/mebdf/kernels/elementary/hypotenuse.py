@@ -9,8 +9,8 @@ from mebdf.kernels.jit import kernel
 _LARGE: Final = 2.0**500
 _SMALL: Final = 2.0**-400
 _SCALE: Final = 2.0**600
+#: A component below this share of the other one changes less than a tenth of the last digit.
 _FLAT: Final = 2.0**-28
-"""A component below this share of the other one changes less than a tenth of the last digit."""
 
 
 @kernel

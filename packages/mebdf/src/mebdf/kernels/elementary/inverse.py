@@ -16,8 +16,8 @@ from mebdf.kernels.jit import kernel
 _LARGE: Final = 2.0**500
 _SMALL: Final = 2.0**-400
 _SCALE: Final = 2.0**600
+#: Angles below it are their tangents, and change no other angle by more than a share of its last digit.
 _FLAT: Final = 2.0**-60
-"""Angles below it are their tangents, and change no other angle by more than a share of its last digit."""
 
 
 @kernel

@@ -13,13 +13,11 @@ from mebdf.kernels.elementary.doubled import ordered_sum, product_of, sum_of
 from mebdf.kernels.elementary.exponential import LARGEST, SMALLEST, exponential, scaled
 from mebdf.kernels.jit import kernel
 
-_NORMAL: Final = 2.2250738585072014e-308
-"""The smallest normal number."""
+_NORMAL: Final = 2.2250738585072014e-308  #: The smallest normal number.
 _LIFT: Final = 54
 _LIFTED: Final = 2.0**_LIFT
 _UPPER_HALF: Final = ~((1 << 27) - 1)
-_VAST: Final = 2.0**60
-"""From here on 1 + x is x, and every number is whole and even."""
+_VAST: Final = 2.0**60  #: From here on 1 + x is x, and every number is whole and even.
 
 
 @kernel

@@ -14,11 +14,9 @@ from mebdf.kernels.elementary.doubled import ordered_sum, product_of, quotient_o
 from mebdf.kernels.elementary.exponential import ROUNDING
 from mebdf.kernels.jit import kernel
 
-_LEAST: Final = 2.0**-27
-"""Below it sine and tangent are the argument."""
+_LEAST: Final = 2.0**-27  #: Below it sine and tangent are the argument.
 _UNREDUCED: Final = 0.5 * HALF_PI[0]
-_LARGE: Final = 1.0e6
-"""Above it parts of π/2 are not enough."""
+_LARGE: Final = 1.0e6  #: Above it parts of π/2 are not enough.
 _MASK: Final = (1 << DIGIT) - 1
 
 

@@ -31,8 +31,9 @@ _CLEARANCE: Final = balance_chart(
     ),
 )
 
+#: In reading order, of the report and of ``figures/``.
 CHARTS: Final = (vane_error.ERROR, vane_error.LOOP, CONTACT_FORCE, TILT, MOTION, WARMING, _WHOLE, _CLEARANCE)
-"""In reading order, of the report and of ``figures/``."""
+#: Chapters in reading order.
 CHAPTERS: Final = (
     Chapter(
         "playback",
@@ -44,8 +45,8 @@ CHAPTERS: Final = (
     Chapter("time", "Over time", OVER_TIME, tuple(chart.section for chart in CHARTS)),
     Chapter("worn", "Wear", "What is worn off the bushing.", (WEAR_MAP, WEAR_HISTORY.section, WEAR_STAGES)),
 )
-"""Chapters in reading order."""
 
+#: Overlays of a comparison of runs.
 OVERLAYS: Final = (
     Overlay(
         "error",
@@ -55,4 +56,3 @@ OVERLAYS: Final = (
     *common.BUSHING,
     Overlay("drive", "Drive moment", (scaled("M_d", "drive moment [N m]", 1.0),)),
 )
-"""Overlays of a comparison of runs."""
