@@ -2,32 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
-from tribodyn.mechanisms.results import mechanism_of
+from tribodyn.figures import sweep
+from tribodyn.figures.figure_family import Family, remove, save
+from tribodyn.mechanisms.results import all_there, mechanism_of
 from tribodyn.results.atomic import write_bytes
 from tribodyn.views.playback import playback_times
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from tribodyn.core.arrays import FloatArray
     from tribodyn.figures.figure_family import Animation
-
-
-from collections.abc import Mapping
-
-import xarray as xr
-
-from tribodyn.figures import sweep
-from tribodyn.figures.figure_family import Family, remove, save
-from tribodyn.mechanisms.results import all_there
 
 
 def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:

@@ -13,12 +13,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-
 def series(dataset: xr.Dataset, name: str, scale: float = 1.0) -> FloatArray:
     """Return a variable as an array times ``scale``, shape (n_t,); infinities become NaN."""
     values = column(dataset, name) * scale

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
@@ -15,14 +17,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from tribodyn.core.arrays import FloatArray
-
-
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 #: Data for the script of a figure: texts, numbers, lists, mappings and arrays.

@@ -1,7 +1,8 @@
 """A mechanism put together in Python; what comes of it is the case that a file would have made."""
 
 import inspect
-from collections.abc import Callable, Mapping
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -16,7 +17,7 @@ from tribodyn.cases.units import si_unit
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
 from tribodyn.mechanism.builder.arguments import CASE, signature_of_case
-from tribodyn.mechanism.builder.methods import METHODS, OF_JOINT, BuilderMethod
+from tribodyn.mechanism.builder.methods import METHODS, OF_JOINT, BuilderMethod, Example
 from tribodyn.mechanism.mechanism_case import MechanismCase
 
 if TYPE_CHECKING:
@@ -31,11 +32,6 @@ else:
             hint = meant(name, [method.name for method in METHODS])
             raise AttributeError(f"a Mechanism has no method {name!r}{hint}", name=name, obj=self)
 
-
-import textwrap
-from collections.abc import Iterator
-
-from tribodyn.mechanism.builder.methods import Example
 
 _WIDTH: Final = 100
 _LINES: Final = textwrap.TextWrapper(_WIDTH, break_long_words=False, break_on_hyphens=False)

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-from tribodyn.cases.case import NamedGroup
-from tribodyn.cases.fields import number, quantity
-from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
-from tribodyn.cases.keys import ASSUMED
-
-if TYPE_CHECKING:
-    from tribodyn.contact import SurfacePair
-
-
 import math
 from itertools import combinations
-from typing import TYPE_CHECKING, Final, Literal, Self
+from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
-from tribodyn.cases.case import demand, dot, unit
-from tribodyn.cases.fields import Vector, choice, count, name, names, switch, vector
+from tribodyn.cases.case import NamedGroup, demand, dot, unit
+from tribodyn.cases.fields import Vector, choice, count, name, names, number, quantity, switch, vector
+from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
 from tribodyn.cases.joint_keys import SURFACE, FilmKeys, FormKeys, LinerKeys, SurfaceWear
+from tribodyn.cases.keys import ASSUMED
 from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import foreign_keys, with_own_keys
 from tribodyn.mechanism.shapes import SHAPES, shapes_of
+
+if TYPE_CHECKING:
+    from tribodyn.contact import SurfacePair
 
 
 def friction_of(which: str) -> Any:

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
-
-if TYPE_CHECKING:
-    from tribodyn.mechanism.mechanism_case import MechanismCase
-
-
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
-
 from tribodyn.cases.beyond import FollowedTable
 from tribodyn.cases.case import unit
+from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.element import Leg

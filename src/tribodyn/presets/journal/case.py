@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Final
-
-from tribodyn.cases.joint_keys import FilmKeys
-from tribodyn.mechanism.mechanism_case import MechanismCase
-
-if TYPE_CHECKING:
-    pass
-
-
 import math
-from collections.abc import Callable, Iterable
-from typing import ClassVar, Literal
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, ClassVar, Final, Literal
 
 from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import Vector, choice, number, quantity, switch, tables, text, vector
 from tribodyn.cases.groups import Solver, Tolerances, check_output_interval
-from tribodyn.cases.joint_keys import FormKeys, OptionalFilmKeys, PlainJoint
+from tribodyn.cases.joint_keys import FilmKeys, FormKeys, OptionalFilmKeys, PlainJoint
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import Doors, ShaftLoad
 from tribodyn.cases.messages import Remarks
 from tribodyn.cases.rough import BushingCase, of_choice
 from tribodyn.cases.signals import SpeedTable
+from tribodyn.mechanism.mechanism_case import MechanismCase
 
 SECTION_4 = "paper, section 4.1"
 _FRICTION = "joint.friction_coefficient"
