@@ -29,6 +29,8 @@ NAMES: Final = (
     "long_run",
     "command",
     "sweep",
+    "builds",
+    "ring",
     "workbench",
     "cash",
     "kinks",

@@ -256,13 +256,15 @@ def _force_error(
     coarse: BushingData, fine: BushingData, rows: Mapping[str, FloatArray], clearance: FloatArray | None
 ) -> float:
     """Return the largest error of the force on a coarse grid over the largest force [1]; NaN if stopped."""
-    remembered, of_fine, pairs = new_memory(coarse), new_memory(fine), []
-    for row in np.unique(np.linspace(0, rows["e_x"].size - 1, _SAMPLES).astype(int)).tolist():
-        if skip():
-            return math.nan
-        y = _attitude(rows, row)
-        exact = joint_wrench(_at(fine, clearance, row), y, memory=of_fine)[:2]
-        found = joint_wrench(_at(coarse, clearance, row), y, memory=remembered)[:2]
-        pairs.append((exact, found - exact))
+    chosen = np.unique(np.linspace(0, rows["e_x"].size - 1, _SAMPLES).astype(int)).tolist()
+    forces = []
+    for data in (fine, coarse):
+        memory = new_memory(data)
+        for row in chosen:
+            if skip():
+                return math.nan
+            forces.append(joint_wrench(_at(data, clearance, row), _attitude(rows, row), memory=memory)[:2])
+    exact, found = np.split(np.array(forces), 2)
+    pairs = np.stack([exact, found - exact], axis=1)
     largest, error = np.fmax.reduce(portable.hypot(*np.transpose(pairs)), axis=1, initial=0.0)
     return float(error / largest) if largest > 0.0 else 0.0

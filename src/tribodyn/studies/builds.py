@@ -133,7 +133,7 @@ def builds(
     >>> found = builds("ring.toml", copies=200, draws=10_000)  # doctest: +SKIP
     """
     chosen = case if isinstance(case, Case) else load_case(case)
-    runs = _BuildRuns(chosen, copies, coupled, seed, None if directory is None else Path(directory))
+    runs = BuildRuns(chosen, copies, coupled, seed, None if directory is None else Path(directory))
     names = [f"copies_{part}_{ERROR_UNITS[runs.unit].spelled}" for part in NUMBERS]
     wrong = next((name for name in limits or {} if name not in names), None)
     if wrong is not None:
@@ -234,7 +234,7 @@ def _number(
     return BuildNumber(name, mean, deviation, quantiles, low, high, drawn[:100_000], together, same, coupled)
 
 
-class _BuildRuns:
+class BuildRuns:
     """The runs that builds are made of."""
 
     def __init__(self, case: Any, copies: int, coupled: int, seed: int, directory: Path | None) -> None:

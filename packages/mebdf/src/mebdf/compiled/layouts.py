@@ -7,6 +7,7 @@ other memory.
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import struct
 import typing
@@ -70,7 +71,9 @@ class Array:
             raise _misfit(value, self)
         if not value.flags.carray:
             raise TypeError("an array is not contiguous, not aligned or must not be written to")
-        return (0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides)
+        # The attribute ``ctypes`` takes three times as long; a buffer has an entry.
+        address = ctypes.addressof(ctypes.c_char.from_buffer(value)) if value.size else value.ctypes.data  # type: ignore[arg-type]
+        return (0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
 
     def __str__(self) -> str:
         return f"{_fields(self.dtype)}[{self.ndim}]"
