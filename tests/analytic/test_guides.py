@@ -180,6 +180,22 @@ def test_a_block_on_its_face_vibrates_as_on_a_bed_of_springs(shape: str, through
     assert roll / heave == pytest.approx(np.sqrt(2.0 * 0.03**2 / 12.0 / 1e-3), rel=1e-4)
 
 
+@pytest.mark.parametrize("stiffness", [2e6, 2e3])
+def test_a_block_on_a_spring_along_its_guide_vibrates_at_the_root_of_stiffness_over_mass(
+    stiffness: float,
+) -> None:
+    drawn = td.Mechanism(
+        "Block", gravity="0, 0, -9.81 m/s^2", run={"duration": "0.1 s", "analysis": "vibrations"}
+    )
+    drawn.body("block", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.prismatic("guide", "ground", "block", point="0, 0, 0 mm", axis=[1, 0, 0], second_axis=[0, 1, 0])
+    drawn.clearance("guide", **BLOCK | SLIPPERY)
+    ends = {"first_point": "-100, 0, 0 mm", "second_point": "0, 0, 0 mm"}
+    drawn.spring("coil", "ground", "block", **ends, stiffness=f"{stiffness} N/m")
+    found = td.simulate(drawn)["natural_frequency"].values[0]
+    assert found[0] == pytest.approx(np.sqrt(stiffness / 2.0) / (2.0 * np.pi), rel=1e-5)
+
+
 def test_a_warm_block_has_the_play_that_its_expansion_leaves() -> None:
     hot = {"temperature": {"trunnion": "70 degC"}}
     case = slider_crank(clearance=BLOCK | hot).case()

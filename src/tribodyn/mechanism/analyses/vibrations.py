@@ -229,7 +229,10 @@ def _held(
     Nothing holds what has no stiffness, nor a slide along the axis of a joint within its end gaps: one of no
     more stiffness than the largest force in a joint gives, |s|² ≤ F way²/length.
     """
-    bodies, slides = assembly.model.bodies, mechanism.system.now.couplings["RT"][assembly.model.real, 2]
+    model, joints = assembly.model, assembly.model.case.joints
+    bodies, real = model.bodies, zip(model.clearances, model.real, strict=True)
+    gaps = {name: number for name, number in real if joints[name].kind.FACES}
+    slides = mechanism.system.now.couplings["RT"][list(gaps.values()), 2]
     moved, free = motions @ modes.shape, []
     weighed = np.linalg.solve(mechanism.system.metric, moved).T.reshape(-1, len(bodies), 6)
     ways = np.linalg.norm(moved.T.reshape(weighed.shape)[:, :, :3], axis=2).max(axis=1)
@@ -241,9 +244,8 @@ def _held(
         kept[m] = not slide and s != 0.0
         if not kept[m]:
             body = bodies[int(np.argmax(np.sum(parts**2, axis=1)))]
-            joints = zip(along.tolist(), assembly.model.clearances, strict=False)
-            ways_of = [name for way, name in joints if way > _MOST]
-            own = [name for name in ways_of if body in assembly.model.case.joints[name].between]
+            ways_of = [name for way, name in zip(along.tolist(), gaps, strict=False) if way > _MOST]
+            own = [name for name in ways_of if body in joints[name].between]
             free.append(" along ".join([body, *(own or ways_of)[:1]]))
     return Modes(modes.eigenvalue[kept], modes.shape[:, kept]), free
 
