@@ -11,8 +11,6 @@ Their forces are those of Timoshenko's beam, in each plane D ((4 + φ) θ₁ + (
 and φ = 12 B/(S l²) of the bending and shear rigidities B, S. Rates of strains are damped in proportion.
 """
 
-from __future__ import annotations
-
 import math
 
 from tribodyn.core.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Columns that follow from observed ones: coordinates of tables, efforts and power of drives."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final
