@@ -32,6 +32,9 @@ _LONGEST: Final = 0.2
 _STILL: Final = 1.0e-8  #: Step in the same units that counts as zero.
 _TINY: Final = 1.0e-300
 _FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
+#: Change of forces over all forces, for a displacement by the length that positions are resolved against or a
+#: radian, that is rounding: a rod between two balls turns about itself, and nothing gives it a stiffness.
+_SLACK: Final = 1.0e-9
 _UNLOADED: Final = 1.0e-6  #: Force along a motion without stiffness, over all forces, that counts as zero.
 
 
@@ -45,6 +48,14 @@ class LinearEquations:
     damping: FloatArray
     stiffness: FloatArray
     load: float  #: Size of all forces but those of constraints, over the roots of masses.
+    units: FloatArray  #: Lengths and turns that displacements are measured in, shape (6 n,).
+
+    def turning_over(self, shapes: FloatArray) -> FloatArray:
+        """Return the stiffness along motions x by which one unit changes forces by their own size.
+
+        ``shapes`` are unit vectors, shape (f, m); the stiffness has the shape (m,).
+        """
+        return self.load * np.max(np.abs(self.motions @ shapes) / self.units[:, None], axis=0, initial=0.0)
 
 
 class Linearised:
@@ -95,6 +106,7 @@ class Linearised:
             -momentum @ accelerations[:, rows] @ motions,
             -momentum @ accelerations @ _in_states(y, motions),
             float(np.linalg.norm(root @ np.array(memory.now.bodies.force[: system.n]).ravel())),
+            self._units,
         )
 
     def balanced(self, t: float, state: FloatArray) -> FloatArray | None:
@@ -107,7 +119,9 @@ class Linearised:
             linear = self.at(t, state)
             values, vectors = np.linalg.eigh(0.5 * (linear.stiffness + linear.stiffness.T))
             size, pushed = np.abs(values), vectors.T @ linear.rest
-            stiff = size > _FLAT * np.max(size, initial=0.0)
+            stiff = size > np.maximum(
+                _FLAT * np.max(size, initial=0.0), _SLACK * linear.turning_over(vectors)
+            )
             loaded = np.linalg.norm(pushed[~stiff]) > _UNLOADED * linear.load
             # Where nothing holds a force the way leads along it, as far as a step goes.
             pushed[stiff] /= size[stiff]

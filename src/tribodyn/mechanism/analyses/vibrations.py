@@ -29,6 +29,8 @@ from tribodyn.mechanism.mechanism_variables import Observed
 
 _FREE: Final = 1.0e-6  #: Eigenvalue over the largest undamped frequency that is zero.
 _UNDAMPED: Final = 1.0e-9  #: Damping ratio that is zero.
+#: Change of forces over all forces, for a displacement by one unit, that is no instability.
+_LOOSE: Final = 1.0e-7
 _REAL: Final = 1.0e-9  #: Imaginary part of an eigenvalue over its size that is zero.
 _MOST: Final = 0.5  #: Share of the kinetic energy along the axis of a joint from which a motion slides in it.
 
@@ -136,6 +138,9 @@ def modes_of(linear: LinearEquations) -> Modes:
     size = np.abs(values)
     # Damping moves eigenvalues apart and leaves their products: the largest frequency is that without it.
     zero = size <= _FREE * np.sqrt(np.max(np.abs(eigvals(linear.stiffness)), initial=0.0))
+    # Where bodies rest is known to 1e-8 of a unit, and so are the forces there.
+    loose = _LOOSE * linear.turning_over(vectors / np.linalg.norm(vectors, axis=0))
+    zero |= (values.imag == 0.0) & (size**2 <= loose)
     n_free = -(-int(np.sum(zero)) // 2)
     values.imag[np.abs(values.imag) <= _REAL * size] = 0.0
     kept = np.flatnonzero(~zero & (values.imag >= 0.0))
