@@ -55,7 +55,8 @@ class LinearEquations:
 
         ``shapes`` are unit vectors, shape (f, m); the stiffness has the shape (m,).
         """
-        return self.load * np.max(np.abs(self.motions @ shapes) / self.units[:, None], axis=0, initial=0.0)
+        ways = np.abs(self.motions @ shapes) / self.units[:, None]
+        return np.asarray(self.load * np.max(ways, axis=0, initial=0.0))
 
 
 class Linearised:

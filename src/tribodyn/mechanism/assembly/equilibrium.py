@@ -51,6 +51,7 @@ _MOVING: Final = 1.0e-6  #: Slip over the one at which traction is developed tha
 _SLIDING: Final = 100.0  #: The same with which a motion that is about to begin is looked at.
 #: Acceleration over the one that loads would cause without joints that counts as zero.
 _ROUNDING: Final = 1.0e-10
+_ROUNDINGS: Final = 64.0  #: Roundings of a position by all that it is a product of.
 _LOST: Final = 3.0  #: Ratio of a shaft's largest motion to the gap of its joint in a search for a support.
 #: The same of a shaft that touches: tilted within a short bore, its end faces are further away.
 _TILTED: Final = 30.0
@@ -216,6 +217,11 @@ class JointLoads:
             pushes = products(self.couplings[wrench][couplings, None], self.couplings["H"][couplings])
             total += forces(np.abs(pushes), self.ends[:, couplings], self.n)
         return float(dense.norm(dense.product(self.root, total))) + float(dense.norm(self.wanted))
+
+    def rounding(self, stiffness: FloatArray) -> float:
+        """Return the load over the motions that rounding of the positions causes in stiff parts."""
+        reach = float(np.max(np.abs(self.motions) / self.units[:, None]))
+        return _ROUNDINGS * float(np.finfo(float).eps * np.max(np.abs(stiffness))) / reach
 
     def unbalanced(self) -> int | None:
         """Return the number of a body that loads push along a freedom which nothing holds; None without one.

@@ -90,6 +90,9 @@ def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, f
     residual, moved = loads.residual(), 0.0
     for steps in range(_MOST_STEPS):
         stiffness, even = loads.stiffness()
+        if loads.over_loads:
+            # Without any loads what is left to balance is rounding.
+            loads.largest = max(loads.largest, loads.rounding(stiffness) / _BALANCED)
         soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
         for _ in range(_MOST_STEPS):
             step = shortest(stiffness + soft * even, residual)
