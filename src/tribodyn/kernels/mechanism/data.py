@@ -284,7 +284,7 @@ CouplingNow: Final = record_type(
     ("scale", "f8", (6,)),
     ("dependent", "f8", (6,)),
     ("multiplier", "f8", (6,)),
-    ("pushing", "f8"),
+    *((name, "f8") for name in ("pushing", "missed")),
     ("wrench", "f8", (6,)),
     ("effort", "f8", (2,)),
     ("constraint", "f8", (6,)),
@@ -328,8 +328,8 @@ prescribed
 compliance, scale, dependent
     Of each row: see ``kernels/mechanism/solution.py``; inverse of the mass that it moves; 1 if it follows
     from others.
-multiplier, pushing
-    Of each row; size of the first from which a leg's ``push`` was taken.
+multiplier, pushing, missed
+    Of each row; size of the reaction by which friction or a leg's ``push`` were taken, and what it missed.
 wrench, constraint
     By forces and by constraints, those of drives included.
 effort

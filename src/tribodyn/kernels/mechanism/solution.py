@@ -18,7 +18,8 @@ in which rows become dependent corrections are large, and any other metric would
 free.
 
 Forces that follow reactions, such as friction of an ideal joint, are taken from the solution before, until
-they no longer change.
+they no longer change. Where that does not settle soon, they take over a share of the change only, by the
+last two changes r of all of them (Irons and Tuck), within bounds: ω ← −ω r₁·(r₂ − r₁)/|r₂ − r₁|².
 
 One file because all of these steps share the factors of one linear system.
 """
@@ -56,9 +57,12 @@ from tribodyn.kernels.mechanism.relative import relative_position, relative_velo
 HARD: Final = 1.0e-8
 SOFT: Final = 1.0  #: Compliances of rows, in units of the inverse mass that a row moves.
 MOST_CORRECTIONS: Final = 6
-MOST_ROUNDS: Final = 60
-#: Rounds in which forces that follow reactions must settle, and the relative change from which they have.
-SETTLED: Final = 1.0e-13
+MOST_ROUNDS: Final = 200  #: Rounds in which forces that follow reactions must settle,
+PLAIN_ROUNDS: Final = 15  #: and those before they follow a share of the change.
+LEAST_SHARE: Final = 0.1  #: A share below zero would find states that no compliance of bodies allows.
+LARGEST_SHARE: Final = 4.0
+SETTLED: Final = 1.0e-13  #: Relative change from which such forces have settled.
+ROUNDED: Final = 1.0e-9  #: That up to which rounds that no longer reduce it differ by rounding, far away.
 CLOSED: Final = 1.0e-14
 """Residual of constraints, relative to the size of the mechanism, that is none.
 
@@ -172,8 +176,9 @@ def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArra
     """Solve again until forces that follow reactions no longer change; NaN where they never settle."""
     for k in range(parts.couplings.size):
         now.couplings[k].pushing = 0.0
-    rounds = 0
-    while _add_reactive(parts, now) > SETTLED:
+    rounds, share, before = 0, 1.0, math.inf
+    change = _add_reactive(parts, now, share)
+    while change > SETTLED and not before <= change <= ROUNDED:
         rounds += 1
         if rounds > MOST_ROUNDS:
             now.x[0, 0] = math.nan
@@ -181,40 +186,72 @@ def _settle_reactive(parts: Parts, now: Now, pattern: Pattern, blocks: FloatArra
         _solve(parts, now, pattern, blocks, 1.0, near, 0.0)
         for k in range(parts.couplings.size):
             _take_multipliers(parts.couplings[k], now.couplings[k], now.x)
+        if rounds > PLAIN_ROUNDS:
+            share = _share(parts, now, share)
+        before, change = change, _add_reactive(parts, now, share)
     for k in range(parts.couplings.size):
         for i in range(3):
             now.couplings[k].constraint[i] += parts.couplings[k].push[i] * now.couplings[k].pushing
 
 
 @kernel
-def _add_reactive(parts: Parts, now: Now) -> float:
-    """Let forces follow the reactions of the last solution; return their largest change over the largest."""
+def _follows(coupling: Record) -> bool:
+    """Return whether forces of a coupling follow a reaction."""
+    push = coupling.push
+    follows: bool = coupling.load_of != NONE or push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0
+    return follows
+
+
+@kernel
+def _reaction(parts: Parts, now: Now, number: int) -> float:
+    """Return the size of the reaction that forces of a coupling follow."""
+    followed = parts.couplings[number].load_of
+    source = now.couplings[number if followed == NONE else followed]
+    size = 0.0 if followed == NONE else hypot(source.constraint[0], source.constraint[1])
+    if size == 0.0 and (followed == NONE or parts.couplings[followed].about != 0.0):
+        size = abs(source.multiplier[0])  # also of a leg that applies a torque alone
+    return size
+
+
+@kernel
+def _share(parts: Parts, now: Now, share: float) -> float:
+    """Return the share of the changes of reactions that is to be taken over, after the last one."""
+    along = square = 0.0
+    for k in range(parts.couplings.size):
+        if _follows(parts.couplings[k]):
+            state = now.couplings[k]
+            turn = _reaction(parts, now, k) - state.pushing - state.missed
+            along, square = along + state.missed * turn, square + turn * turn
+    return min(max(-share * along / square, LEAST_SHARE), LARGEST_SHARE) if square > 0.0 else share
+
+
+@kernel
+def _add_reactive(parts: Parts, now: Now, share: float) -> float:
+    """Let forces follow a share of the change of reactions; return their largest change over the largest."""
     change = largest = 0.0
     for b in range(parts.bodies.size):
         for i in range(6):
             now.rest[b, i] = now.bodies[b].force[i]
     for k in range(parts.couplings.size):
         coupling, state = parts.couplings[k], now.couplings[k]
+        if not _follows(coupling):
+            continue
+        size = _reaction(parts, now, k)
+        state.missed = size - state.pushing
+        change, largest = max(change, abs(state.missed)), max(largest, size)
+        state.pushing = size if share == 1.0 else max(state.pushing + share * state.missed, 0.0)
         if coupling.load_of != NONE:
-            source, before = now.couplings[coupling.load_of], state.law.normal
-            state.law.followed = source.multiplier[0]
-            state.law.normal = hypot(source.constraint[0], source.constraint[1])
-            if state.law.normal == 0.0 and parts.couplings[coupling.load_of].about != 0.0:
-                state.law.normal = abs(source.multiplier[0])  # of a leg that applies a torque alone
-            change = max(change, abs(state.law.normal - before))
-            largest = max(largest, state.law.normal)
+            state.law.followed = now.couplings[coupling.load_of].multiplier[0]
+            state.law.normal = state.pushing
+            if share != 1.0:
+                state.law.table[0] = state.law.table[1] = 0.0  # no extrapolation of its own
             call_law(coupling, state)
-        push = coupling.push
-        if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
-            size = abs(state.multiplier[0])
-            change, largest = max(change, abs(size - state.pushing)), max(largest, size)
-            state.pushing = size
-            for i in range(3):
-                for j in range(6):
-                    if coupling.socket < parts.bodies.size:
-                        now.rest[coupling.socket, j] += state.H[i, j] * push[i] * size
-                    if coupling.shaft < parts.bodies.size:
-                        now.rest[coupling.shaft, j] += state.H[i, 6 + j] * push[i] * size
+        for i in range(3):
+            for j in range(6 if coupling.push[i] != 0.0 else 0):
+                if coupling.socket < parts.bodies.size:
+                    now.rest[coupling.socket, j] += state.H[i, j] * coupling.push[i] * state.pushing
+                if coupling.shaft < parts.bodies.size:
+                    now.rest[coupling.shaft, j] += state.H[i, 6 + j] * coupling.push[i] * state.pushing
     return change / largest if largest > 0.0 else 0.0
 
 

@@ -144,7 +144,7 @@ def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: floa
     now: Now = problem.memory.now
     broken, at = int(now.course.broken), int(now.course.broken_at)
     if broken == INTACT:
-        return _of_films(problem.memory.oil["status"], model, t_end)
+        return _of_reactions(now, model, t_end) or _of_films(problem.memory.oil["status"], model, t_end)
     if broken == OPENED:
         return f"stopped at t = {t_end:.6g} s: {_opened(now, model, at)}"
     joint, surface = surfaces[at].rsplit(":", 1)
@@ -152,6 +152,18 @@ def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: floa
         h_first = float(problem.data.contact.surfaces[at]["h_first"])
         return beyond_law(h_first, t_end, f"joint {joint} ({surface})")
     return f"stopped at t = {t_end:.6g} s: {_left(problem, model, joint, at)}"
+
+
+def _of_reactions(now: Now, model: Model, t_end: float) -> str:
+    """Return the element whose friction did not agree with the reaction that it follows."""
+    missed = np.abs(now.couplings["missed"])
+    if not math.isnan(now.x[0, 0]) or not np.isfinite(missed).all() or not missed.any():
+        return ""
+    name, bodies = model.constraint(int(np.argmax(missed)))
+    return (
+        f"stopped at t = {t_end:.6g} s: {name} between {' and '.join(bodies)} locks itself: "
+        "its friction grows faster than the reaction that it follows; give less friction, or its load"
+    )
 
 
 def _of_films(statuses: FloatArray, model: Model, t_end: float) -> str:
