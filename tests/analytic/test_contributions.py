@@ -8,7 +8,10 @@ from tests.analytic.test_outputs import CRANK, ROD, press
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
+from tribodyn.mechanism.descriptor import TEMPLATES
+from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.studies import contributions
+from tribodyn.studies.contributions import BENDING
 
 PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
 
@@ -62,6 +65,20 @@ def test_shares_are_those_of_results_in_the_folder(folder: Path) -> None:
     assert {path: path.stat().st_mtime_ns for path in folder.glob("points/*/result.nc")} == before
     for one in again:
         assert np.sum(one.shares) + one.interaction == pytest.approx(1.0, abs=1e-12)
+
+
+def test_elastic_bodies_are_a_part_of_their_own(tmp_path: Path) -> None:
+    # The air moment bends a lever of titanium: F L²/3EI, and 3 % of shear.
+    changes = {"pattern.vanes.count": 2, "run.cycles": 0.4}
+    case = parse_case(TEMPLATES["vsv-ring"].text, "ring").replace(changes)
+    vane, *_ = contributions(case, directory=tmp_path, workers=0)
+    assert vane.joints == ("trunnion[1]", "trunnion[2]", BENDING)
+    length, moment_of_area = np.hypot(24.240900475, 43.730752842), 3.0 * 10.0**3 / 12.0
+    angle = 840.0 / length * length**2 / (3.0 * 110e3 * moment_of_area)
+    assert vane.alone[-1] == pytest.approx(1.03 * np.degrees(angle), rel=0.02)
+    assert vane.alone[1] < 1e-3 * vane.alone[0]
+    assert vane.shares[-1] == pytest.approx(vane.estimate[-1].sum(), abs=0.05)
+    assert 0.0 < vane.interaction < 0.1
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,8 @@ class Distributed(Protocol):
     """A number over builds, see :class:`tribodyn.studies.builds.BuildNumber`."""
 
     @property
-    def name(self) -> str:
-        """Name, with its unit at the end."""
+    def label(self) -> str:
+        """Words for it, with its unit."""
 
     @property
     def quantiles(self) -> FloatArray:
@@ -46,7 +46,6 @@ def draw(numbers: Sequence[Distributed], title: str) -> Figure:
         if one.together.size:
             marks = dict(color=style.VERMILION, ms=5.0, clip_on=False)
             axes.plot(one.together, 0.0 * one.together, "|", label="builds as a whole", **marks)
-        *words, unit = one.name.split("_")
-        style.finish(axes, style.plain(f"{' '.join(words)} [{unit}]"), "density")
+        style.finish(axes, one.label, "density")
         style.legend(axes, 3)
     return figure

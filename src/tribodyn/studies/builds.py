@@ -37,8 +37,12 @@ _BLOCK: Final = 400  #: Builds that are drawn at once.
 _REPLICATES: Final = 40
 _SURE: Final = (0.025, 0.975)
 Law: TypeAlias = Callable[[np.random.Generator, int], FloatArray]
-#: Parts of the names of a build's numbers: largest difference of two copies, deviation, largest error.
-NUMBERS: Final = ("spread_max", "sigma", "error_max")
+#: Labels of a build's numbers by a part of their names.
+NUMBERS: Final = {
+    "spread_max": "Spread of copies, peak",
+    "sigma": "Standard deviation of copies",
+    "error_max": "Error of copies, peak",
+}
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,7 @@ class BuildNumber:
     """A number over all builds."""
 
     name: str  #: As key results have it, with its unit at the end.
+    label: str  #: With its unit.
     #: Over all builds drawn.
     mean: float
     deviation: float
@@ -138,6 +143,7 @@ def builds(
     wrong = next((name for name in limits or {} if name not in names), None)
     if wrong is not None:
         raise InputError(f'given "{wrong}"; allowed: {", ".join(names)}', key="--limit")
+    labels = [f"{label} [{ERROR_UNITS[runs.unit].shown}]" for label in NUMBERS.values()]
     means, of_build = Means(workers=workers, keep_results=False), runs.of_build
     errors = runs.alone(means, watcher)
     population, random = Copies(runs.laws, runs.inputs, errors), np.random.default_rng([seed, 1])
@@ -147,8 +153,8 @@ def builds(
     together = runs.together(means, watcher)
     same = numbers_of_builds(errors[: coupled * of_build].reshape(coupled, of_build, INSTANTS))
     numbers = tuple(
-        _number(name, drawn[:, k], [one[:, k] for one in again], together[:, k], same[:, k], seed)
-        for k, name in enumerate(names)
+        _number((name, label), drawn[:, k], [one[:, k] for one in again], together[:, k], same[:, k], seed)
+        for k, (name, label) in enumerate(zip(names, labels, strict=True))
     )
     beyond = {}
     for name, limit in (limits or {}).items():
@@ -214,7 +220,7 @@ def draw(copies: Copies, of_build: int, draws: int, random: np.random.Generator)
 
 
 def _number(
-    name: str,
+    words: tuple[str, str],
     drawn: FloatArray,
     again: Sequence[FloatArray],
     together: FloatArray,
@@ -231,7 +237,9 @@ def _number(
         chosen = np.random.default_rng([seed, 2]).choice(rest, drawn.size)
         coupled = np.quantile(offset + slope * drawn + chosen, LEVELS)
     quantiles, mean, deviation = np.quantile(drawn, LEVELS), float(drawn.mean()), float(drawn.std())
-    return BuildNumber(name, mean, deviation, quantiles, low, high, drawn[:100_000], together, same, coupled)
+    return BuildNumber(
+        *words, mean, deviation, quantiles, low, high, drawn[:100_000], together, same, coupled
+    )
 
 
 class BuildRuns:

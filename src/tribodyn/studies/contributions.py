@@ -8,7 +8,8 @@ several cycles without the first),
 
 A share is the part of the mean square error that varies together with the error of that joint (a variance is
 divided into covariances in the same way); it is below zero for a joint that compensates others. The
-interaction is what joints cause only together.
+interaction is what joints cause only together. Elastic bodies count as one joint more: they are rigid where
+a joint is alone, and alone where all joints are ideal.
 
 Beside it stands the estimate by superposition, which takes one kinematic analysis: smooth, rigid surfaces,
 every shaft against one side of its bore.
@@ -22,8 +23,10 @@ from typing import Any, Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from tribodyn.cases import Case, keys_in
+from tribodyn.cases.case import with_entries
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.mechanisms.catalogue import load_case
@@ -37,6 +40,7 @@ from tribodyn.studies.plan import Axis, SweepPlan, plan_of
 from tribodyn.studies.sweep import SILENT, Means, Watcher, run
 
 _SWITCH: Final = "joints.{}.clearance.ideal"
+BENDING: Final = "elastic bodies"  #: In the place of a joint, what bends with all joints ideal.
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,7 @@ class OutputShares:
 
     output: str  #: Its name.
     unit: str  #: Unit of the errors, as they are shown.
-    joints: tuple[str, ...]  #: Names of the joints with clearance.
+    joints: tuple[str, ...]  #: Names of the joints with clearance, and ``BENDING`` where bodies are elastic.
     #: Root mean square error with each of these joints alone, in that unit, shape (n_joints,).
     alone: FloatArray
     together: float  #: The same with all.
@@ -100,11 +104,21 @@ def contributions(
     """
     chosen = case if isinstance(case, Case) else load_case(case)
     switches = real_joints(chosen)
-    plan, joints = _plan(chosen, switches), tuple(switches)
-    folder = Path(directory)
-    found = run(plan, folder, Means(workers=workers, keep_results=True), watcher)
-    refuse_failures(found)
-    whole, *alone = (read(folder / POINTS / point.name) for point in plan.points)
+    means = Means(workers=workers, keep_results=True)
+
+    def simulated(one: Case, real: NDArray[np.bool_]) -> list[xr.Dataset]:
+        """Return results with some joints real, ``real`` of shape (n_runs, n_joints)."""
+        plan = _plan(one, switches, real)
+        refuse_failures(run(plan, Path(directory), means, watcher))
+        return [read(Path(directory) / POINTS / point.name) for point in plan.points]
+
+    every, each = np.ones(len(switches), bool), np.eye(len(switches), dtype=bool)
+    if elastic := _elastic(chosen):
+        whole, bent = simulated(chosen, np.vstack([every, ~every]))
+        alone = [*simulated(with_entries(chosen, {}, "rigid bodies", elastic), each), bent]
+    else:
+        whole, *alone = simulated(chosen, np.vstack([every, each]))
+    joints = (*switches, *((BENDING,) if elastic else ()))
     ideal = _kinematic(chosen)
     shares = [_shares_of(str(output), whole, alone, joints, ideal) for output in whole["output"].values]
     known = tuple(one for one in shares if np.isfinite(one.together))
@@ -137,13 +151,17 @@ def real_joints(case: Case) -> dict[str, str]:
     return found
 
 
-def _plan(case: Case, joints: Mapping[str, str]) -> SweepPlan:
-    """Return the plan of the runs: all joints real, then each alone."""
+def _elastic(case: Case) -> list[str]:
+    """Return the paths of the keys that let bodies bend."""
+    written: Mapping[str, object] = getattr(case, "written", {})
+    return [path for path in written if path.startswith("bodies.") and path.endswith(".elastic")]
+
+
+def _plan(case: Case, joints: Mapping[str, str], real: NDArray[np.bool_]) -> SweepPlan:
+    """Return the plan of the runs with some joints real."""
     keys = keys_in(case)
-    ideal = ~np.vstack([np.ones(len(joints), bool), np.eye(len(joints), dtype=bool)])
-    columns = {
-        keys[path]: tuple(of_joint) for path, of_joint in zip(joints.values(), ideal.T.tolist(), strict=True)
-    }
+    ideal = (~real).T.tolist()
+    columns = {keys[path]: tuple(one) for path, one in zip(joints.values(), ideal, strict=True)}
     return plan_of(case, (Axis("run", columns),))
 
 
@@ -157,9 +175,14 @@ def _kinematic(case: Case) -> xr.Dataset | None:
 
 def _estimated(output: str, joints: tuple[str, ...], ideal: xr.Dataset | None) -> tuple[float, FloatArray]:
     """Return the root mean square error by superposition [SI], and its shares, (n_joints, n_causes)."""
-    if ideal is None or ideal.attrs["failure"] or not set(joints) <= set(ideal["joint"].values.tolist()):
+    real = [one for one in joints if one != BENDING]
+    if ideal is None or ideal.attrs["failure"] or not set(real) <= set(ideal["joint"].values.tolist()):
         return math.nan, np.zeros((len(joints), 0))
-    parts = ideal["error_estimate"].sel(output=output, joint=list(joints)).values
+    known = ideal["error_estimate"].sel(output=output)
+    parts = known.sel(joint=real).values
+    if BENDING in joints:
+        # Of the joints between the pieces of elastic bodies.
+        parts = np.hstack([parts, known.drop_sel(joint=real).values.sum(axis=1, keepdims=True)])
     time, total = column(ideal, "time"), parts.sum(axis=(1, 2))
     square = _mean(time, total * total)
     found = [[_mean(time, one * total) / square for one in of_joint.T] for of_joint in parts.swapaxes(0, 1)]

@@ -139,6 +139,7 @@ def _as_json(found: Builds) -> dict[str, object]:
         "levels": list(LEVELS),
         "numbers": {
             one.name: {
+                "label": one.label,
                 "mean": one.mean,
                 "deviation": one.deviation,
                 "quantiles": one.quantiles.tolist(),
