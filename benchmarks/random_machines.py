@@ -2,7 +2,8 @@
 
     python -m benchmarks random_machines
 
-The machines are those of ``tests/faults/test_random_physics.py``, by their seeds.
+The machines are those of ``tests/faults/test_random_physics.py``, by their seeds: ``ELASTIC`` are those of
+``MECHANISM`` with elastic bodies under their asperities, and are compared with these one by one.
 """
 
 from __future__ import annotations
@@ -17,8 +18,19 @@ from typing import Any, Final
 
 import numpy as np
 
+import tribodyn.accessor  # noqa: F401
+
 SOURCE: Final = Path(__file__).parents[1] / "tests" / "faults" / "test_random_physics.py"
-COUNTS: Final = {"MECHANISM": 500, "UNDAMPED": 25, "DRY": 100}  #: How many machines of each kind are drawn.
+#: How many machines of each kind are drawn.
+COUNTS: Final = {"MECHANISM": 500, "ELASTIC": 500, "UNDAMPED": 25, "DRY": 100}
+#: Key results that elastic bodies may change.
+COMPARED: Final = (
+    "contact_force_mean_N",
+    "contact_force_sustained_N",
+    "contact_force_max_N",
+    "error_rms_deg_vane",
+)
+WITHIN: Final = 0.01
 _RESIDUALS: Final = ("energy_residual", "clearance_energy_residual")
 
 
@@ -35,12 +47,14 @@ def drawing() -> ModuleType:
 
 def run(quick: bool = False) -> dict[str, Any]:
     """Print and return how many runs of each kind ended how; ``quick``: of three machines each."""
-    machines = drawing()
+    machines, runs = drawing(), {}
     found: dict[str, Any] = {}
     for kind, count in COUNTS.items():
-        runs = [one(machines, getattr(machines, kind), seed) for seed in range(3 if quick else count)]
-        found[kind] = of_kind(runs)
+        runs[kind] = [one(machines, getattr(machines, kind), seed) for seed in range(3 if quick else count)]
+        found[kind] = of_kind(runs[kind])
         print(kind, found[kind], flush=True)
+    found["bulk"] = compared(runs["MECHANISM"], runs["ELASTIC"])
+    print("bulk", found["bulk"], flush=True)
     return found
 
 
@@ -57,7 +71,32 @@ def one(machines: ModuleType, kind: Any, seed: int) -> dict[str, Any]:
         result = machines.run(case.replace(machines.advised(case, result.attrs["warnings"], times)))
         failure = str(result.attrs["failure"])
     sound = not failure and max(machines.residuals(result)) <= machines.ENERGY_LIMIT
-    return {"failure": failure, "warned": warned, "times": times, "sound": sound, "taken": taken, **missed}
+    numbers = {name: float(result.tribodyn.numbers["value"][name]) for name in COMPARED} if sound else {}
+    ended = {"failure": failure, "warned": warned, "times": times, "sound": sound, "taken": taken}
+    return {**ended, **missed, "numbers": numbers}
+
+
+def compared(rigid: list[dict[str, Any]], elastic: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return how elastic bodies change the key results of machines that are sound with both, over rigid."""
+    both = [
+        (a["numbers"], b["numbers"]) for a, b in zip(rigid, elastic, strict=True) if a["sound"] and b["sound"]
+    ]
+    changes = {name: [b[name] / a[name] - 1.0 for a, b in both if a[name]] for name in COMPARED}
+    return {
+        "sound with both": len(both),
+        "sound with rigid bodies only": sum(
+            a["sound"] and not b["sound"] for a, b in zip(rigid, elastic, strict=True)
+        ),
+        **{
+            name: {
+                "within 1 %": sum(abs(change) <= WITHIN for change in values),
+                "change": quantiles(values),
+                "size of change": quantiles([abs(change) for change in values]),
+            }
+            for name, values in changes.items()
+            if values
+        },
+    }
 
 
 def of_kind(runs: list[dict[str, Any]]) -> dict[str, Any]:

@@ -12,8 +12,9 @@ from tests.faults.random_mechanisms import drawn
 from tests.faults.test_random_mechanisms import BEYOND, wrong
 
 import tribodyn as td
-from tribodyn.contact import SurfacePair, lined
-from tribodyn.contact.bulk import Bulk
+from tribodyn.contact import RSDC, SurfacePair, lined, tabulate
+from tribodyn.contact.bulk import Bulk, elastic_bodies
+from tribodyn.contact.damping_factors import rebound
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.joints.clearances import Clearance, assemble, pose_at
@@ -25,6 +26,8 @@ from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 STOPPED = (29, 37, 53, 57, 62, 71, 78, 117, 130, 141, 157, 159, 183, 184, 187)
 FEW = 3  #: Of which so many always run.
 WRIST = "joints.wrist.clearance"
+SMOOTH = {"trunnion": {"roughness": "0.02 um"}, "bushing": {"roughness": "0.02 um", "hardness": "20 GPa"}}
+"""Surfaces whose bodies give way by far more than their asperities."""
 
 
 def reported(clearance: Clearance, d: tuple[float, float, float]) -> Record:
@@ -146,3 +149,73 @@ def test_the_coefficient_follows_the_arc(
     assert near / far == pytest.approx(2.0, rel=0.02)
     half = radius * math.acos(1.0 - 160e-6 / (room + 160e-6))
     assert near == pytest.approx(bulk.compliance(half), rel=0.04)
+
+
+def dropped(room: float, kind: str, loss: dict[str, float], contact: dict[str, str]) -> tuple[float, float]:
+    """Drop a pin or ball through its clearance [µm] on undamped asperities; return speed and restitution."""
+    bushing = SMOOTH["bushing"] | {"young_modulus": "3 GPa"} | loss
+    surfaces, run = (
+        SMOOTH | {"bushing": bushing},
+        {"duration": "30 ms", "start": "centred", "output_interval": "5 us"},
+    )
+    drawing = td.Mechanism(
+        "Drop",
+        gravity="0, 0, -9.81 m/s^2",
+        run=run,
+        surfaces=surfaces,
+        contact={"law": "ke"} | contact,
+        solver={"rtol": 1e-7},
+    )
+    drawing.body("pin", mass="0.2 kg", centre="0, 0, 0 mm", inertia="1e-5, 1e-5, 1e-5 kg m^2")
+    sizes = {"radius": "10 mm", "radial": f"{room} um", "friction_coefficient": 0.0, "bulk": "conformal"}
+    if kind == "cylinder":
+        drawing.revolute("bearing", "ground", "pin", point="0, 0, 0 mm", axis=[0, 1, 0])
+        drawing.clearance("bearing", **sizes, length="10 mm", axial="1 mm", nodes_around=768, nodes_along=4)
+    else:
+        drawing.spherical("bearing", "ground", "pin", point="0, 0, 0 mm")
+        drawing.clearance("bearing", **sizes, nodes_around=384, nodes_along=64)
+    result = td.simulate(drawing.case())
+    assert not result.attrs["failure"]
+    assert result.attrs["energy_residual"] < 1e-3
+    velocity = result["velocity"].sel(body="pin").values[:, 2]
+    first = int(velocity.argmin())
+    return -velocity[first], velocity[first:].max() / -velocity[first]
+
+
+@pytest.mark.parametrize(("kind", "within"), [("cylinder", 0.02), ("sphere", 0.15)])
+@pytest.mark.parametrize("room", [100.0, 1000.0])
+def test_bodies_with_a_loss_factor_return_the_same_at_any_speed(
+    kind: str, within: float, room: float
+) -> None:
+    _, restitution = dropped(room, kind, {"loss_factor": 0.1}, {})
+    # Nodes of a sphere begin to touch at various speeds.
+    assert 1.0 - restitution == pytest.approx(1.0 - math.exp(-0.05 * math.pi), rel=within)
+
+
+@pytest.mark.parametrize("room", [10.0, 100.0, 1000.0])
+def test_bodies_with_a_loss_in_proportion_to_the_speed_return_less_of_a_fast_impact(room: float) -> None:
+    speed, restitution = dropped(room, "cylinder", {}, {"loss_coefficient": "0.3 s/m"})
+    # Of its own a - ln(1 + a) = -x - ln(1 - x) with a = 1.5 alpha v, x = a e.
+    expected = rebound(np.array([0.45 * speed]))[0]
+    assert 1.0 - restitution == pytest.approx(1.0 - expected, rel=0.05)
+
+
+def test_damping_never_drives(table_1_pair: SurfacePair) -> None:
+    pair = dataclasses.replace(table_1_pair, loss_factor=(0.01, 0.2))
+    law = RSDC(pair, "lankarani-nikravesh")
+    found = elastic_bodies(tabulate(law), law, 6e-3)
+    lossless = dataclasses.replace(found, loss=0.0)
+    for table, without in zip(found.levels, lossless.levels, strict=True):
+        assert np.all(table.nodes[:, 2] >= without.nodes[:, 2])
+    # The softer body has most of the compliance, and of the loss.
+    assert 0.19 < pair.composite_loss < 0.2
+    assert "return all of it" in " ".join(
+        td.load_case("vsv").replace({"joint.bulk": "conformal"}).remarks().notes
+    )
+
+
+def test_joints_of_one_pair_share_their_levels(table_1_pair: SurfacePair) -> None:
+    law = RSDC(table_1_pair, "lankarani-nikravesh")
+    table = tabulate(law)
+    small, large = (elastic_bodies(table, law, size).levels for size in (5e-3, 7e-3))
+    assert small is large

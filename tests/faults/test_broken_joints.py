@@ -60,6 +60,7 @@ def test_a_pin_that_leaves_its_bore_stops_the_run() -> None:
 def test_surfaces_beyond_their_contact_law_stop_the_run(contact: str, solver: str) -> None:
     result = td.simulate(pendulum(contact, solver={"name": solver}))
     words = r"the surfaces of joint pivot \(barrel\) came closer than the contact law reaches"
+    assert ("joints.pivot.clearance.bulk" in result.attrs["failure"]) == (contact == "surface")
     # 3 MN take 1 kg through 50 µm in 6 µs.
     assert 5e-6 < stopped(result, words) < 1e-4
 
@@ -78,7 +79,7 @@ def overhung(rings: int) -> MechanismCase:
 
 
 def test_an_edge_without_area_counts_and_a_grid_that_resolves_it_carries_the_load() -> None:
-    words = r"the surfaces of joint bearing \(barrel\) came closer .* more nodes along the axis show which"
+    words = r"the surfaces of joint bearing \(barrel\) came closer .* along the axis show which; joints\."
     # On four rings the outermost is 1.4 mm from the edge, which is some 28 um deeper than on finer grids: the
     # shaft has no place of rest within the law, falls through its clearance and stops.
     coarse = td.simulate(overhung(4))

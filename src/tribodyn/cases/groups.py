@@ -48,6 +48,14 @@ class Trunnion(Group):
         example="16 W/(m K)",
     )
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="4 mm^2/s")
+    loss_factor: float | None = number(
+        None,
+        "tan delta of the body under the asperities; it loses none without it",
+        "",
+        ge=0,
+        le=1,
+        example="0.005",
+    )
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
 
@@ -78,6 +86,14 @@ class Bushing(Group):
         example="0.35 W/(m K)",
     )
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="0.2 mm^2/s")
+    loss_factor: float | None = number(
+        None,
+        "tan delta of the body under the asperities; it loses none without it",
+        "",
+        ge=0,
+        le=1,
+        example="0.005",
+    )
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
 
 
@@ -106,6 +122,7 @@ class Surfaces(Group):
             hardness=self.bushing.hardness,
             asperity_density=asperities.density,
             asperity_radius=asperities.radius,
+            loss_factor=(self.trunnion.loss_factor or 0.0, self.bushing.loss_factor or 0.0),
         )
 
     def run_in(self, depth: float, final: float | None) -> Self:

@@ -150,6 +150,11 @@ class PlainJoint(Group):
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
 
+    @property
+    def may_yield(self) -> bool:
+        """Whether there may be elastic bodies under its asperities."""
+        return self.contact == SURFACE and self.liner.thickness is None
+
     def model_post_init(self, context: object, /) -> None:
         """Check that the clearance is small against the radius."""
         demand(

@@ -23,6 +23,7 @@ OF_SURFACE: Final = {
     "poisson_ratio": "",
     "hardness": "MPa",
     "thermal_expansion": "1/K",
+    "loss_factor": "",
 }
 #: Properties of sliding against steel: unit, and keys, if a case has them, that take those of the bushing.
 OF_PAIR: Final = {

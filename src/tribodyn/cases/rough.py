@@ -42,7 +42,9 @@ class RoughCase(Case):
 
     def remarks(self) -> Remarks:
         """Return remarks on the two surfaces and on tables."""
-        return super().remarks() + of_surfaces(self) + of_tables(self.followed())
+        yields = value_at(self, "joint.bulk") if "joint.bulk" in keys_in(self) else "none"
+        bodies = of_loss(self, () if yields == "none" else ("",))
+        return super().remarks() + of_surfaces(self) + bodies + of_tables(self.followed())
 
     def rough_clearances(self) -> dict[str, float]:
         """Return the combined rms roughness σ of bushing and trunnion [m] by the path of their clearance."""
@@ -135,6 +137,19 @@ def of_choice(case: Case, prefixes: Iterable[str]) -> Remarks:
         "such surfaces are shown in grey."
     )
     return Remarks((), (words,))
+
+
+def of_loss(case: Case, prefixes: Iterable[str]) -> Remarks:
+    """Return the note on elastic bodies of unknown loss, by what the keys of their surfaces begin with."""
+    given = ("surfaces.bushing.loss_factor", "contact.loss_coefficient")
+    left = [
+        f"{prefix}{given[0]}" for prefix in prefixes if all(case.at(prefix + key) is None for key in given)
+    ]
+    words = (
+        "Nothing is known of what the bodies under the asperities lose in an impact: they return all of it. "
+        f"Give {', '.join(left)}, or a material with a loss factor (`tribodyn materials`)."
+    )
+    return Remarks((), (words,)) if left else Remarks()
 
 
 def has_wear_rate(case: Case, prefix: str = "") -> bool:

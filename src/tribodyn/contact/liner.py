@@ -12,7 +12,8 @@ asperities at the separation s with
     s = h + P_k(s)/k_w,    P(h) = P_k(s),    C(h) = C(s) (ds/dh)²,    ds/dh = 1/(1 − P_k'(s)/k_w).
 
 The damping follows by virtual work: asperities dissipate C(s) ṡ²/δ̇₋ with ṡ = ḣ ds/dh. The energy under P(h)
-is that of the asperities and P²/2k_w of the layer.
+is that of the asperities and P²/2k_w of the layer. A layer that loses energy itself, with the damping a times
+its pressure, adds a P(h) (1 − ds/dh)² to C(h) by the same argument.
 """
 
 from __future__ import annotations
@@ -74,7 +75,7 @@ class Liner:
 
 
 def lined(
-    table: ContactTable, stiffness: float, *, depth: float | None = None, stride: int = 1
+    table: ContactTable, stiffness: float, *, depth: float | None = None, stride: int = 1, loss: float = 0.0
 ) -> ContactTable:
     """Return the table over the gap of a contact whose asperities stand on a layer.
 
@@ -89,6 +90,8 @@ def lined(
         Without it the table ends where they do.
     stride
         Nodes of the given table to one of the result.
+    loss
+        a, damping over pressure of the layer [1].
 
     Returns
     -------
@@ -118,14 +121,13 @@ def lined(
     share = 1.0 / (1.0 - pressure(s, 1) / stiffness)
     cube = share * share * share
     bend = cube * pressure(s, 2) / stiffness
-    nodes = np.column_stack(
-        [
-            pressure(s),
-            step * share * pressure(s, 1),
-            share**2 * damping(s),
-            step * (cube * damping(s, 1) + 2.0 * share * bend * damping(s)),
-        ]
+    carried, slope, sunk = pressure(s), step * share * pressure(s, 1), 1.0 - share
+    lost, lost_slope = (
+        loss * sunk * sunk * carried,
+        loss * sunk * (sunk * slope - 2.0 * step * bend * carried),
     )
+    rise = step * (cube * damping(s, 1) + 2.0 * share * bend * damping(s))
+    nodes = np.column_stack([carried, slope, share**2 * damping(s) + lost, rise + lost_slope])
     return table_of_nodes(float(gap[0]), step, nodes)
 
 

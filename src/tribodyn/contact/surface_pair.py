@@ -24,6 +24,8 @@ class SurfacePair:
         Asperities per area ξ of the equivalent rough surface [1/m²].
     asperity_radius
         Mean radius β of the asperity tips [m].
+    loss_factor
+        η₁, η₂ of the bodies, tan δ [1].
     """
 
     young_modulus: tuple[float, float]
@@ -32,11 +34,12 @@ class SurfacePair:
     hardness: float
     asperity_density: float
     asperity_radius: float
+    loss_factor: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         """Refuse surfaces for which the laws have no meaning."""
         for entry in fields(self):
-            if entry.name not in ("poisson_ratio", "roughness"):
+            if entry.name not in ("poisson_ratio", "roughness", "loss_factor"):
                 _require_positive(entry.name, getattr(self, entry.name))
         if min(self.roughness) < 0.0 or not 0.0 < math.hypot(*self.roughness) < math.inf:
             raise InputError(f"must not be negative nor both zero, not {self.roughness}", key="roughness")
@@ -46,11 +49,19 @@ class SurfacePair:
     @property
     def composite_modulus(self) -> float:
         """E = 1/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂] [Pa]."""
-        compliance = (
-            (1.0 - (nu * nu)) / modulus
-            for modulus, nu in zip(self.young_modulus, self.poisson_ratio, strict=True)
-        )
-        return 1.0 / sum(compliance)
+        return 1.0 / sum(self._compliances)
+
+    @property
+    def composite_loss(self) -> float:
+        """η of both bodies in series, each in proportion to its compliance [1]."""
+        lost = zip(self.loss_factor, self._compliances, strict=True)
+        return self.composite_modulus * sum(eta * compliance for eta, compliance in lost)
+
+    @property
+    def _compliances(self) -> tuple[float, ...]:
+        """(1 − ν²)/E of each body [1/Pa]."""
+        both = zip(self.young_modulus, self.poisson_ratio, strict=True)
+        return tuple((1.0 - (nu * nu)) / modulus for modulus, nu in both)
 
     @property
     def roughness_rms(self) -> float:

@@ -1,10 +1,12 @@
 """A trunnion in a bushing with clearance, Eqs. 44, 45 and 48."""
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
 
+from tribodyn.contact.bulk import Bulk
 from tribodyn.contact.liner import Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
@@ -24,6 +26,7 @@ from tribodyn.kernels.joints.memory import new_memory as memory_of_surface
 from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_report, from_wrench
 from tribodyn.kernels.joints.pose import Pose
 from tribodyn.kernels.joints.quantities import REPORTED
+from tribodyn.kernels.joints.surface.bulk import RING
 from tribodyn.kernels.joints.surface.data import GAP
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
@@ -79,6 +82,9 @@ class BushingJoint:
     #: What the asperities stand on, which the table allows for; None where that is rigid.
     liner: Liner | None = None
     form: Form = field(default_factory=Form)  #: What the surfaces stand back from cylinders.
+    #: Elastic bodies under the asperities and their largest pressure [Pa].
+    bulk: Bulk | None = None
+    hardness: float = math.inf
 
     @property
     def theta(self) -> FloatArray:
@@ -120,7 +126,8 @@ class BushingJoint:
     def touch(self) -> Touch:
         """The two surfaces."""
         size = self.geometry
-        return Touch(self.roughness, self.table, self.contact, self.liner, size.clearance, size.bore_radius)
+        of_law = self.roughness, self.table, self.contact, self.liner
+        return Touch(*of_law, size.clearance, size.bore_radius, self.bulk)
 
     def data(self, wear: FloatArray | None = None) -> BushingData:
         """Return the data of the kernels, worn at the nodes [m], shape :attr:`field_shape`."""
@@ -136,12 +143,16 @@ class BushingJoint:
             onset=entry.onset,
             minimum_velocity=entry.minimum_velocity,
             tensile_clip=entry.tensile_clip,
+            hardness=self.hardness,
+            bulk=self.bulk,
         )
         place = Place(0, self.surface, slice(0, depth.size))
         surface = join((place,), (law,), depth.ravel())
         record = surface.surfaces[0]
         record["along"] = 0.0
         record["torque_radius"] = size.bore_radius if friction.model == "moment" else 0.0
+        if self.bulk is not None:
+            record["deepest"] = -size.bore_radius
         if self.contact != SURFACE:
             half = 0.5 * size.length
             fill_points(record, Points(size.radius, 0.0, size.length, (-half, half)))
@@ -158,7 +169,8 @@ class BushingJoint:
         ones, radius = np.ones(self.z.size), self.geometry.radius
         rings = Rings(-radius * ones, self.z, -ones, 0.0 * ones, self._strip)
         surface = rings.surface("bushing", ("z", self.z), 0.0, self.grid.theta, AXIS)
-        return replace(surface, gap=self.form_gap.ravel(), lean=radius)
+        bore = self.geometry.bore_radius
+        return replace(surface, gap=self.form_gap.ravel(), lean=radius, extent=RING, size=bore)
 
 
 def new_memory(data: BushingData, entry_velocity: FloatArray | None = None) -> JointMemory:

@@ -19,7 +19,7 @@ from tribodyn.cases.joint_keys import FilmGridKeys, Wear
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.loads import Doors, OwnFunction
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_surfaces, wear_scatter
+from tribodyn.cases.rough import RoughCase, has_wear_rate, of_choice, of_loss, of_surfaces, wear_scatter
 from tribodyn.cases.tables import keys_at
 from tribodyn.cases.temperature import Temperature, time_followed, times_of
 from tribodyn.core.errors import below
@@ -42,7 +42,14 @@ from tribodyn.mechanism.model.drives_and_loads import (
     given_of,
 )
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
-from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys, friction_of
+from tribodyn.mechanism.model.parts import (
+    CONFORMAL,
+    ClearanceKeys,
+    JointKeys,
+    PairKeys,
+    SpringKeys,
+    friction_of,
+)
 from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, scatter_in, with_copies
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
@@ -185,8 +192,12 @@ class MechanismCase(_WithElements):
         """Return remarks on the surfaces of all joints and on tables."""
         of_pairs = (of_surfaces(self, f"{_PAIRS}.{name}.", self._beside(name)) for name in self.pairs)
         own = of_surfaces(self, "", self._beside(None)) + of_tables(self.followed())
-        chosen = of_choice(self, dict.fromkeys(self._surfaces_of_joints().values()))
-        return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self) + chosen)
+        prefixes = self._surfaces_of_joints()
+        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
+        elastic = (prefixes[name] for name, keys in real.items() if keys.under == CONFORMAL)
+        bodies = of_loss(self, dict.fromkeys(elastic))
+        chosen = of_choice(self, dict.fromkeys(prefixes.values()))
+        return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self) + bodies + chosen)
 
     def assumed_wear(self) -> tuple[str, ...]:
         """Return the joints, as in names of numbers, whose wear rate nobody chose."""

@@ -46,8 +46,18 @@ TOO_CLOSE: Final = (
 )
 
 
+def yielding(key: str) -> str:
+    """Return the advice to let the bodies under the asperities yield, by their key."""
+    return f'; {key} = "conformal" lets the bodies under the asperities yield, and the run goes on there'
+
+
 def beyond_law(
-    h_first: float, t_end: float, surfaces: str, cause: str = f"the load or the impact {TOO_CLOSE}"
+    h_first: float,
+    t_end: float,
+    surfaces: str,
+    cause: str = f"the load or the impact {TOO_CLOSE}",
+    *,
+    advice: str = "",
 ) -> str:
     """Return why a run stopped at ``t_end`` [s] that left the range of its contact law.
 
@@ -59,12 +69,12 @@ def beyond_law(
         Simulated time reached [s].
     surfaces
         Which ones, in words.
-    cause
-        What to say of it.
+    cause, advice
+        What to say of it, and what helps.
     """
     return (
         f"stopped at t = {t_end:.6g} s: the surfaces of {surfaces} came closer than the contact law reaches "
-        f"({h_first:g} sigma); {cause}"
+        f"({h_first:g} sigma); {cause}{advice}"
     )
 
 

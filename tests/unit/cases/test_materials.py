@@ -29,6 +29,7 @@ def test_every_property_has_a_source_and_could_be_one(name: str) -> None:
         "poisson_ratio": (0.2, 0.5),
         "hardness": (1e7, 1e10),
         "thermal_expansion": (5e-6, 2e-4),
+        "loss_factor": (1e-4, 1.0),
         "friction_coefficient": (0.01, 1.0),
         "specific_wear_rate": (1e-18, 1e-12),
         "wear_scatter": (0.0, 100.0),

@@ -68,8 +68,7 @@ def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     """Update entry velocities and watch both limits at the end of an accepted step, the last mark."""
     place(data, t, y, 0.0, 0.0, memory)
     update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 0.0)
-    surface = data.joint.surface.surfaces[0]
-    if memory.joint.scratch.report.separation_min < surface.h_first * surface.roughness:
+    if memory.joint.scratch.report.separation_min < data.joint.surface.surfaces[0].deepest:
         memory.regime[BEYOND] = BEYOND_LAW
     if not math.isfinite(memory.scratch.motion[THETA_V, VALUE]):
         memory.regime[BEYOND] = BEYOND_REACH

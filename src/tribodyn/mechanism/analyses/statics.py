@@ -192,7 +192,8 @@ class Equilibria:
     def __init__(self, assembly: Assembly, path: DrivePath) -> None:
         times, self._where = np.unique(path.of_drives, return_inverse=True)
         found = IdealMechanism(assembly).follow(times)
-        self._path, self._bodies, self._joints = path, assembly.model.bodies, assembly.model.joints
+        self._path, self._model = path, assembly.model
+        self._bodies, self._joints = assembly.model.bodies, assembly.model.joints
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
@@ -245,7 +246,7 @@ class Equilibria:
         if overlapping is not None:
             return (
                 f"the surfaces of joint {joints[overlapping]} come closer than the contact law reaches; "
-                f"the load {TOO_CLOSE}"
+                f"the load {TOO_CLOSE}{self._model.yielding(joints[overlapping])}"
             )
         return "the search for it did not converge"
 

@@ -11,7 +11,7 @@ from tribodyn.cases.case import demand, unit
 from tribodyn.cases.groups import Surfaces
 from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
-from tribodyn.contact.bulk import Bulk
+from tribodyn.contact.bulk import elastic_bodies
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.joints import Friction
@@ -101,8 +101,7 @@ def _clearance(
     )
     bulk = None
     if keys.under == CONFORMAL:
-        size = max(surface.size for surface in shape.surfaces(_COARSE))
-        bulk = Bulk(table, surfaces.roughness_rms, surfaces.composite_modulus, size)
+        bulk = elastic_bodies(table, law, max(surface.size for surface in shape.surfaces(_COARSE)))
     return Clearance(
         shape=shape,
         grid=_grid(case, keys, shape.clearance),

@@ -11,6 +11,7 @@ from functools import cached_property
 from itertools import chain
 
 from tribodyn.joints.clearances import Clearance
+from tribodyn.joints.point_contact import SURFACE
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.mechanism.elements.bristle import resting
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
@@ -18,6 +19,7 @@ from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.parts import JointKeys
+from tribodyn.mechanisms.self_checks import yielding
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,11 @@ class Model:
     def yields(self) -> bool:
         """Whether any joint is not ideal: it has clearance, or is elastic."""
         return bool(self.clearances or self.elastic)
+
+    def yielding(self, joint: str) -> str:
+        """Return the advice to let the bodies of a joint yield; nothing for contacts at points."""
+        over_surface = self.clearances[joint].contact == SURFACE
+        return yielding(f"joints.{joint}.clearance.bulk") if over_surface else ""
 
     @property
     def real(self) -> list[int]:

@@ -150,7 +150,7 @@ def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: floa
     joint, surface = surfaces[at].rsplit(":", 1)
     if broken == OVERLAPPED:
         h_first = float(problem.data.contact.surfaces[at]["h_first"])
-        return beyond_law(h_first, t_end, f"joint {joint} ({surface})")
+        return beyond_law(h_first, t_end, f"joint {joint} ({surface})", advice=model.yielding(joint))
     return f"stopped at t = {t_end:.6g} s: {_left(problem, model, joint, at)}"
 
 

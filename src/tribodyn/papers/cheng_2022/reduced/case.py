@@ -39,6 +39,9 @@ class VaneJoint(PlainJoint):
     """The clearance joint: a trunnion in a bushing, with a thrust collar."""
 
     collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
+    bulk: Literal["conformal", "none"] = choice(
+        "none", "what yields under the asperities: trunnion and bushing, or nothing", "assumed"
+    )
 
 
 class MechanismKeys(Group):
@@ -303,6 +306,7 @@ class VsvCase(BushingCase):
             self._check_run,
             self._check_campaign,
             self._check_inertias,
+            self._check_bulk,
             self._check_reach,
             self._check_loads,
             self._check_running_in,
@@ -329,11 +333,8 @@ class VsvCase(BushingCase):
             "a wear campaign needs a whole number of cycles here: the last of them is the first whose wear "
             "counts, those before let the start die away",
         )
-        demand(
-            self.joint.contact == "surface",
-            "wear.cycles",
-            'a contact at points has no pressure that could wear: joint.contact = "surface" is needed',
-        )
+        words = 'a contact at points has no pressure that could wear: joint.contact = "surface" is needed'
+        demand(self.joint.contact == "surface", "wear.cycles", words)
 
     def _check_inertias(self) -> None:
         """Check that the inertias about rod ends and casing axis leave something about the mass centres."""
@@ -353,6 +354,12 @@ class VsvCase(BushingCase):
             with faults.noted():
                 demand(inertia > least, f"mechanism.{body}_inertia", message)
         faults.raise_any()
+
+    def _check_bulk(self) -> None:
+        """Check that elastic bodies are those of the formulation that keeps energy, over a surface."""
+        words = 'elastic bodies need mechanism.formulation = "exact", a contact over the surface and no liner'
+        possible = self.joint.may_yield and self.mechanism.formulation == "exact"
+        demand(self.joint.bulk == "none" or possible, "joint.bulk", words)
 
     def _check_running_in(self) -> None:
         """Check that there is a roughness to run in to."""

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.temperature import cold_geometry
+from tribodyn.contact.bulk import elastic_bodies
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.core.signals import begun
@@ -34,7 +35,7 @@ from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, li
 from tribodyn.mechanisms.output_numbers import lives, shaft_displacements
 from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
-from tribodyn.mechanisms.self_checks import beyond_law, extremes, instant, of_clearance, of_tables
+from tribodyn.mechanisms.self_checks import beyond_law, extremes, instant, of_clearance, of_tables, yielding
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import (
@@ -89,10 +90,19 @@ def vsv_of(case: VsvCase) -> Vsv:
         ),
         gravity=m.gravity,
         collar_radius=case.joint.collar_radius,
-        joint=bushing_of(case),
+        joint=_bushing_of(case),
     )
     opening = case.temperature.opening(cold_geometry(case.joint), case.surfaces, case.joint.liner)
     return replace(vsv, terms=tuple(terms_of(case, vsv.vane_arm)), opening=opening)
+
+
+def _bushing_of(case: VsvCase) -> BushingJoint:
+    """Return the clearance joint with what yields under its asperities."""
+    rigid, surfaces = bushing_of(case), case.surface_pair
+    if case.joint.bulk == "none":
+        return rigid
+    bulk = elastic_bodies(rigid.table, case.contact.law_of(surfaces), rigid.geometry.bore_radius)
+    return replace(rigid, bulk=bulk, hardness=surfaces.hardness)
 
 
 @dataclass(frozen=True)
@@ -130,7 +140,7 @@ class VsvSystem:
     def worn_bushing(self, depth: FloatArray | None) -> BushingJoint:
         """Return the trunnion in its bushing with the roughness that it has at a wear depth [m]."""
         case = self._worn_case(depth)
-        return self.bushing if case is self.case else bushing_of(case)
+        return self.bushing if case is self.case else _bushing_of(case)
 
     def _worn_case(self, depth: FloatArray | None) -> VsvCase:
         """Return the case with the roughness that the bushing has at a wear depth [m]."""
@@ -339,7 +349,8 @@ class VsvSystem:
         reason, t, y = run.solution.failure or "", run.solution.t_end, run.solution.y_end
         if reason not in ("", INTERRUPTED) and run.problem.memory.regime[BEYOND] == BEYOND_LAW:
             cause = () if self.vsv.exact else (GAINS_ENERGY.format(self.vsv.formulation),)
-            return beyond_law(self.bushing.table.h_first, t, "trunnion and bushing", *cause)
+            advice = yielding("joint.bulk") if self.vsv.exact and self.case.joint.may_yield else ""
+            return beyond_law(self.bushing.table.h_first, t, "trunnion and bushing", *cause, advice=advice)
         angle = float(self.vsv.drive.angle(np.array([t]))[0])
         if reason in ("", INTERRUPTED) or not at_limit(run.problem.data.mechanism, angle, y):
             return reason
