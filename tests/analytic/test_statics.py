@@ -397,3 +397,16 @@ def test_superposition_has_no_errors_of_velocities() -> None:
         place = result["output"].values.tolist().index(output)
         estimate = column(result, "error_estimate")[:, place, result["joint"].values.tolist().index("wrist")]
         assert np.isfinite(estimate).all() == known, output
+
+
+def test_an_arm_rests_on_its_stop_as_far_in_as_its_weight_presses_it() -> None:
+    """Torque m g l cos θ over the stiffness of the stop; the pivot has a clearance."""
+    run = {"duration": "0.1 s", "output_interval": "50 ms", "analysis": "static"}
+    drawn = td.Mechanism("Arm on a stop", gravity="0, -9.81 m/s^2, 0", run=run)
+    drawn.body("arm", mass="2 kg", centre="100, 0, 0 mm", inertia="1e-2, 1e-2, 1e-2 kg m^2")
+    drawn.revolute("pivot", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.clearance("pivot", radius="5 mm", radial="20 um", length="20 mm", friction_coefficient=0.0)
+    drawn.stop("seat", "pivot", angle="-0.1 deg", side="below", angular_stiffness="1000 N m/rad")
+    result = td.simulate(drawn)
+    angle = result["joint_angle"].values[-1, 0]
+    assert angle == pytest.approx(-np.radians(0.1) - 2.0 * 9.81 * 0.1 * np.cos(angle) / 1000.0, rel=1e-8)

@@ -13,8 +13,6 @@ from tribodyn.mechanisms.catalogue import load_case, template, templates
 POSITIONS = "5"
 #: What is said of those that have none.
 NO_ANSWER = {
-    ("latch", "static"): "no static equilibrium was found",
-    ("latch", "vibrations"): "no static equilibrium was found",
     ("latch", "kinematic"): "no drive prescribes a motion",
     ("pendulum", "kinematic"): "no drive prescribes a motion",
     ("slider-crank-3d", "kinematic"): "no drive prescribes a motion",

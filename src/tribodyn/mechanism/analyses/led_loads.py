@@ -22,14 +22,18 @@ from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.positions import held, undamped
 from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
 
-SLIP: Final = "slip_velocity"  #: Name of the parameter of laws at which their friction is developed.
+#: Names of parameters of laws: where friction is developed, and the least speed at which contact begins.
+SLIP: Final = "slip_velocity"
+ENTRY: Final = "least_rate"
+_NEVER_ENTERED: Final = 1.0e30  #: Speed at which contact began that leaves no damping of impacts [m/s].
 _FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
 
 
 def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
     """Return a mechanism whose friction is developed from a slip velocity on [m/s], in its data.
 
-    Positions along drives have no time scale: friction has its direction from the motion, and its size not.
+    Positions along drives have no time scale: friction has its direction from the motion, and its size not,
+    and stops and flanks do not damp.
     """
     surfaces, couplings = data.contact.surfaces.copy(), data.parts.couplings.copy()
     for records in (surfaces, couplings):
@@ -38,11 +42,11 @@ def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
     for element in model.elements:
         for equation in element.equations:
             names = [] if equation.law is None else list(equation.law.function.parameters)
+            values = couplings["parameters"]["values"][number : number + len(equation.legs)]
             if SLIP in names:
-                values = couplings["parameters"]["values"][
-                    number : number + len(equation.legs), names.index(SLIP)
-                ]
-                np.minimum(values, slip, out=values)
+                values[:, names.index(SLIP)] = np.minimum(values[:, names.index(SLIP)], slip)
+            if ENTRY in names:
+                values[:, names.index(ENTRY)] = _NEVER_ENTERED
             number += len(equation.legs)
     parts = data.parts._replace(couplings=couplings)
     return data._replace(contact=data.contact._replace(surfaces=surfaces), parts=parts)
