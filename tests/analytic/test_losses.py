@@ -1,4 +1,4 @@
-"""Losses of gears and worms that follow the tooth force."""
+"""Losses of gears, worms, racks, threads and guides that follow force and direction."""
 
 import math
 from typing import Any
@@ -64,9 +64,85 @@ def test_a_worm_that_locks_itself_holds() -> None:
         (WORM | {"efficiency": 0.5}, "leave one of them out"),
         ({"backward_efficiency": 0.5}, "give both efficiencies"),
         ({"friction_coefficient": 1.5, "lead_angle": "60 deg"}, "exceed 90 deg"),
-        ({"efficiency": 0.9, "backlash": "0.1 mm", "mesh_stiffness": "100 N/um"}, "are not computed"),
+        ({"efficiency": 0.9, "backlash": "0.1 mm"}, "need their stiffness"),
     ],
 )
 def test_wrong_losses_are_refused(gear: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError, match=words):
         wheels({"speed": "100 rpm"}, LOAD, **gear).case()
+
+
+PLAYS = [{}, {"backlash": "20 um", "restitution": 0.3}]
+
+
+@pytest.mark.parametrize("load", [LOAD, -LOAD])
+def test_teeth_with_backlash_lose_as_those_without(load: float) -> None:
+    losses = {"efficiency": 0.72, "backward_efficiency": 0.38}
+    stiff = PLAYS[1] | {"mesh_stiffness": "10 N/um"}
+    run = td.simulate(wheels({"speed": "100 rpm"}, load, **losses, **stiff).case())
+    efficiency = 1.0 / 0.72 if load > 0.0 else 0.38
+    late = run["drive_moment"].values[run["time"].values > 0.15, 0]
+    np.testing.assert_allclose(late, -RATIO * load * efficiency, rtol=1e-3)
+    assert run.attrs["energy_residual"] < 1e-3
+
+
+@pytest.mark.parametrize("play", PLAYS)
+@pytest.mark.parametrize("load", [50.0, -50.0])
+def test_a_rack_loses_by_direction(load: float, play: dict[str, Any]) -> None:
+    drawn = td.Mechanism("Rack", run={"duration": "0.3 s"}, solver={"rtol": 1e-8})
+    drawn.body("pinion", mass="1 kg", centre="0, 0, 0 mm", inertia="3e-4, 3e-4, 5e-4 kg m^2")
+    drawn.body("rack", mass="2 kg", centre="0, -20, 0 mm", inertia="1e-4, 5e-3, 5e-3 kg m^2")
+    drawn.revolute("bearing", "ground", "pinion", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.prismatic("guide", "ground", "rack", point="0, -20, 0 mm", axis=[1, 0, 0])
+    keys = play | ({"mesh_stiffness": "10 N/um"} if play else {})
+    losses = {"efficiency": 0.8, "backward_efficiency": 0.5, "slip_velocity": "0.1 um/s"}
+    drawn.rack("mesh", joints=["bearing", "guide"], radius="20 mm", **losses, **keys)
+    drawn.load("process", body="rack", point="0, -20, 0 mm", force=f"{load} N", direction=[-1, 0, 0])
+    drawn.drive("motor", "bearing", speed="1 rad/s")
+    run = td.simulate(drawn.case())
+    late = run["time"].values > 0.25
+    expected = 0.02 * load * (1.0 / 0.8 if load > 0.0 else 0.5)
+    np.testing.assert_allclose(run["drive_moment"].values[late, 0], expected, rtol=1e-3 if play else 1e-6)
+    assert np.isfinite(run["element_force"].values[late]).all()
+
+
+@pytest.mark.parametrize("play", PLAYS)
+@pytest.mark.parametrize("hand", [1.0, -1.0])
+@pytest.mark.parametrize("lifts", [True, False])
+def test_a_screw_has_friction_by_direction(lifts: bool, hand: float, play: dict[str, Any]) -> None:
+    """Lifting a weight W takes W r tan(phi + rho), lowering it W r tan(rho - phi), each with its rho."""
+    weight, radius, lead, forward, backward = 200.0, 8e-3, 5e-3, 0.1, 0.2
+    drawn = td.Mechanism("Screw", run={"duration": "0.3 s"}, solver={"rtol": 1e-8})
+    drawn.body("screw", mass="1 kg", centre="0, 0, 50 mm", inertia="1e-3, 1e-3, 2e-4 kg m^2")
+    drawn.body("nut", mass="2 kg", centre="0, 0, 30 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.revolute("bearing", "ground", "screw", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.prismatic("guide", "ground", "nut", point="0, 0, 30 mm", axis=[0, 0, 1])
+    keys = play | ({"stiffness": "10 N/um"} if play else {})
+    rubbing = {"friction_coefficient": forward, "backward_coefficient": backward, "slip_velocity": "1 um/s"}
+    size = {"lead": f"{1e3 * hand * lead} mm", "radius": f"{1e3 * radius} mm"}
+    drawn.screw("thread", joints=["bearing", "guide"], **size, **rubbing, **keys)
+    drawn.load("weight", body="nut", point="0, 0, 30 mm", force=f"{weight} N", direction=[0, 0, -1])
+    way = -hand if lifts else hand  # a right-handed screw that turns about z pulls the nut down
+    drawn.drive("motor", "bearing", speed=f"{way} rad/s")
+    run = td.simulate(drawn.case())
+    late = run["time"].values > 0.25
+    slope = math.atan(lead / (2.0 * math.pi * radius))
+    angle = slope + math.atan(forward) if lifts else math.atan(backward) - slope
+    expected = way * weight * radius * math.tan(angle)
+    np.testing.assert_allclose(run["drive_moment"].values[late, 0], expected, rtol=2e-3 if play else 1e-6)
+    np.testing.assert_allclose(run["element_force"].values[late, 0], weight, rtol=2e-3)
+
+
+@pytest.mark.parametrize("rest", [True, False])
+@pytest.mark.parametrize(("velocity", "coefficient"), [(0.1, 0.1), (-0.1, 0.25)])
+def test_a_guide_has_friction_by_direction(velocity: float, coefficient: float, rest: bool) -> None:
+    drawn = td.Mechanism("Guide", friction={"rest": rest}, run={"duration": "0.1 s"})
+    drawn.body("block", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.prismatic("face", "ground", "block", point="0, 0, 0 mm", axis=[1, 0, 0])
+    drawn.load("weight", body="block", point="0, 0, 0 mm", force="50 N", direction=[0, 0, -1])
+    keys = {"friction_coefficient": 0.1, "backward_coefficient": 0.25, "slip_velocity": "1 um/s"}
+    drawn.friction("rubbing", joint="face", **keys)
+    drawn.drive("motor", "face", velocity=f"{velocity} m/s")
+    run = td.simulate(drawn.case())
+    late = run["drive_force"].values[run["time"].values > 0.05, 0]
+    np.testing.assert_allclose(late, math.copysign(50.0 * coefficient, velocity), rtol=1e-6)

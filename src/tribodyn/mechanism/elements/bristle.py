@@ -41,6 +41,7 @@ class RestKeys(Group):
     "viscous",
     "extrapolates",
     "backward",
+    "reverse",
     "presliding",
     "settling",
 )
@@ -48,6 +49,7 @@ def bristle(joint: Any, law: Any) -> None:
     """Fill the friction force at a displacement since the last accepted step, and at a sliding speed."""
     v, direction = law.rate, law.rate if law.elastic == 0.0 else law.elastic
     load = joint.normal_load + followed_load(law, joint.extrapolates, joint.backward, direction)
+    load *= joint.reverse if direction < 0.0 else 1.0
     share = exp(-((v / joint.stribeck_velocity) ** 2))
     limit = load * (joint.friction_coefficient + joint.breakaway * share)
     fresh = load * (joint.friction_coefficient + joint.breakaway) / joint.presliding

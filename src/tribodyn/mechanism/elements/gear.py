@@ -8,39 +8,33 @@ the displacements d of the wheels in their bearings at O,
 
 The multiplier is the tangential tooth force. Nothing acts on the carrier but the bearings.
 
-With backlash j the sum is no constraint but the path of the teeth along the pitch circles, zero in the middle
-of the gap. Beyond ±j/2 a flank is in contact, by the law of a limit stop. Its normal is turned by the
-pressure angle α: the tooth force F pushes the wheels apart with F tan α; nearer to each other they have less
-play. Teeth without backlash push the wheels apart with |λ| tan α where the pressure angle is given.
-
-Losses follow the tooth force: a torque κ |λ| r_1 against the motion of the first wheel, with 1 + κ = 1/η
-where it drives and 1 − κ = η where it is driven. A worm, whose lead angle is φ, has
+The normal of a flank with backlash is turned by the pressure angle α: the tooth force F pushes the wheels
+apart with F tan α; nearer to each other they have less play. Teeth without backlash push the wheels apart
+with |λ| tan α where the pressure angle is given. A worm, whose lead angle is φ, has the losses
 
     η = tan φ/tan(φ + ρ) forward,   tan(φ − ρ)/tan φ backward,   tan ρ = μ.
 """
 
 import math
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import ClassVar, Self
 
 import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import choice, names, number, quantity, switch
+from tribodyn.cases.fields import names, number, quantity
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanism.elements import element as base
-from tribodyn.mechanism.elements.joint_friction import friction_law
-from tribodyn.mechanism.elements.stop import RESTITUTION, flank_law
+from tribodyn.mechanism.elements.teeth import Teeth, pushing
 
 PRESSURE_ANGLE = math.radians(20.0)  #: Of teeth with backlash, where a case does not say it [rad].
 #: Distance between parallel axes, over that between all joints, up to which they are one axis.
 _OFFSET = 1.0e-9
 
 
-class Gear(base.ElementKeys):
+class Gear(Teeth):
     """A gear pair: two wheels, each in a bearing of the same carrier, turn in a fixed ratio."""
 
     TABLE: ClassVar[str] = "gears"
@@ -79,22 +73,6 @@ torque = "0.2 N m"
         required=True,
     )
 
-    backlash: float | None = quantity(
-        None, "play j of the teeth along the pitch circles; none without it", "", ge=0, example="0.1 mm"
-    )
-    mesh_stiffness: float | None = quantity(
-        None, "tooth force over indentation, of teeth with backlash", "", gt=0, example="100 N/um"
-    )
-    damping_factor: str = choice(
-        "calibrated",
-        "how damping of teeth with backlash follows from restitution",
-        "assumed",
-        family="tribodyn.contact:DAMPING_FACTORS",
-    )
-    restitution: float = number(
-        RESTITUTION, "coefficient of restitution of teeth with backlash", "manual, elements", gt=0, le=1
-    )
-    ideal: bool = switch(False, "treat the teeth as without backlash", "assumed")
     pressure_angle: float | None = quantity(
         None,
         "pressure angle, by which teeth push the wheels apart; without it 20 deg with backlash, else none",
@@ -104,28 +82,12 @@ torque = "0.2 N m"
         example="20 deg",
     )
 
-    efficiency: float | None = number(
-        None, "power out over power in where the first wheel drives; without it no loss", "", gt=0, lt=1
-    )
-    backward_efficiency: float | None = number(
-        None,
-        "likewise where the second wheel drives, below 0 of what locks itself; 2 - 1/efficiency without it",
-        "",
-        ge=-10,
-        le=1,
-    )
     friction_coefficient: float | None = number(
         None, "of a worm, which is the first wheel, instead of both efficiencies", "", gt=0, le=2
     )
     lead_angle: float | None = quantity(
         None, "lead angle of a worm; needed with its friction", "", gt=0, lt="90 deg", example="10 deg"
     )
-    slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
-
-    @property
-    def has_play(self) -> bool:
-        """Whether its teeth have backlash."""
-        return self.backlash is not None and not self.ideal
 
     @property
     def without_play(self) -> Self:
@@ -135,71 +97,35 @@ torque = "0.2 N m"
         angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
         return self.model_copy(update={"backlash": None, "pressure_angle": angle})
 
-    def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
-        """Return the constraint, or one contact for each flank of teeth with backlash."""
-        if self.ideal and self.backlash is not None:
-            return self.without_play.equations(joints)
-        forward, backward = self._losses()
-        if self.backlash is None:
-            teeth = base.Equation(self._pushing(joints), None)
-            if forward == 0.0:
-                return (teeth,)
-            law = friction_law(forward, self.slip_velocity, load_leg=0, backward=backward / forward)
-            return teeth, base.Equation((replace(teeth.legs[0], along=np.zeros(3), push=None),), law)
-        demand(forward == 0.0, "backlash", "losses of teeth with backlash are not computed; leave one out")
-        demand(self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness")
-        words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
-        demand(self._pitch(joints) is not None, "backlash", words)
-        law = flank_law(self.backlash, self.mesh_stiffness or 0.0, self.damping_factor, self.restitution)
-        return tuple(base.Equation(self._flank(self.legs(joints), side), law) for side in (1.0, -1.0))
-
     @property
     def without_friction(self) -> Self:
         """The gear without losses."""
         return self.model_copy(update={"efficiency": None, "friction_coefficient": None})
 
-    def _losses(self) -> tuple[float, float]:
-        """Return torque against the first wheel over that of the teeth, where it drives and is driven."""
-        if self.friction_coefficient is not None:
-            demand(self.lead_angle is not None, "lead_angle", "friction of a worm needs its lead angle")
-            words = "a worm has its friction or efficiencies: leave one of them out"
-            demand(self.efficiency is None and self.backward_efficiency is None, "efficiency", words)
-            mu, slope = self.friction_coefficient, portable.tan(self.lead_angle or 0.0)
-            words = "a worm cannot turn with this friction: lead angle and angle of friction exceed 90 deg"
-            demand(mu * slope < 1.0, "friction_coefficient", words)
-            steeper, flatter = (slope + mu) / (1.0 - mu * slope), (slope - mu) / (1.0 + mu * slope)
-            return steeper / slope - 1.0, 1.0 - flatter / slope
-        if self.efficiency is None:
-            demand(self.backward_efficiency is None, "backward_efficiency", "give both efficiencies")
-            return 0.0, 0.0
-        lost = 1.0 / self.efficiency - 1.0
-        return lost, lost if self.backward_efficiency is None else 1.0 - self.backward_efficiency
-
-    def _pushing(self, joints: base.Joints) -> tuple[base.Leg, ...]:
-        """Return the legs of the constraint, whose force pushes the wheels apart as well."""
-        legs = self.legs(joints)
-        if not self.pressure_angle:
-            return legs
+    def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
+        """Return the constraint or the contacts of teeth with backlash, and the friction of losses."""
+        if self.ideal and self.backlash is not None:
+            return self.without_play.equations(joints)
+        legs, angle = self.legs(joints), self.pressure_angle
+        if self.has_play and angle is None:
+            angle = PRESSURE_ANGLE
         words = "gears whose axes are not parallel, or are one axis, have no pitch circles"
-        demand(self._pitch(joints) is not None, "pressure_angle", words)
-        pushes = self._pushes(legs, self.pressure_angle)
-        return tuple(replace(wheel, push=push) for wheel, push in zip(legs, pushes, strict=True))
+        key = "backlash" if self.has_play else "pressure_angle"
+        demand(not (angle or self.has_play) or self._pitch(joints) is not None, key, words)
+        return tuple(self.meshing(legs, pushing(legs, angle) if angle else None))
 
-    def _flank(self, legs: tuple[base.Leg, ...], side: float) -> tuple[base.Leg, ...]:
-        """Return the legs of one flank: its contact, with λ below zero, pushes the wheels apart as well."""
-        angle = PRESSURE_ANGLE if self.pressure_angle is None else self.pressure_angle
-        return tuple(
-            replace(wheel, along=side * wheel.along - push, about=side * wheel.about, reported=wheel.along)
-            for wheel, push in zip(legs, self._pushes(legs, angle), strict=True)
-        )
-
-    @staticmethod
-    def _pushes(legs: tuple[base.Leg, ...], angle: float) -> tuple[FloatArray, FloatArray]:
-        """Return the forces that push both wheels apart, over the tooth force."""
-        towards = [np.cross(wheel.along, [0.0, 0.0, wheel.about]) for wheel in legs]
-        apart = min(towards, key=lambda arm: float(dense.norm(arm)))
-        apart = apart / dense.norm(apart) * (1.0 if apart is towards[0] else -1.0)
-        return -portable.tan(angle) * apart, portable.tan(angle) * apart
+    def losses(self) -> tuple[float, float]:
+        """Return torque against the first wheel over that of the teeth, where it drives and is driven."""
+        if self.friction_coefficient is None:
+            return super().losses()
+        demand(self.lead_angle is not None, "lead_angle", "friction of a worm needs its lead angle")
+        words = "a worm has its friction or efficiencies: leave one of them out"
+        demand(self.efficiency is None and self.backward_efficiency is None, "efficiency", words)
+        mu, slope = self.friction_coefficient, portable.tan(self.lead_angle or 0.0)
+        words = "a worm cannot turn with this friction: lead angle and angle of friction exceed 90 deg"
+        demand(mu * slope < 1.0, "friction_coefficient", words)
+        steeper, flatter = (slope + mu) / (1.0 - mu * slope), (slope - mu) / (1.0 + mu * slope)
+        return steeper / slope - 1.0, 1.0 - flatter / slope
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return one leg for each wheel."""

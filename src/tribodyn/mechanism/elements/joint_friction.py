@@ -28,6 +28,7 @@ from tribodyn.mechanism.elements.element import ARM, DRIVE, ForceLaw, Joints, Le
     "viscous",
     "extrapolates",
     "backward",
+    "reverse",
 )
 def regularised(joint: Any, law: Any) -> None:
     """Fill the friction force at a sliding speed."""
@@ -37,7 +38,7 @@ def regularised(joint: Any, law: Any) -> None:
     square = v * v + slip * slip
     direction = v / math.sqrt(square)
     share = exp(-((v / joint.stribeck_velocity) ** 2))
-    load = joint.normal_load + followed
+    load = (joint.normal_load + followed) * (joint.reverse if v < 0.0 else 1.0)
     moving, sticking = joint.friction_coefficient * load, joint.breakaway * load
     limit = moving + sticking * share
     fall = -2.0 * v / (joint.stribeck_velocity * joint.stribeck_velocity) * sticking * share
@@ -59,10 +60,12 @@ def friction_law(
     load_of: str = "",
     load_leg: int | None = None,
     backward: float = 1.0,
+    reverse: float = 1.0,
 ) -> ForceLaw:
     """Return the law of friction, Coulomb's by default; ``breakaway`` is what μ_s is above μ.
 
-    ``backward`` is the friction over that number where the force that it follows drives the motion.
+    ``backward`` is the friction over that number where the force that it follows drives the motion,
+    ``reverse`` where the coordinate falls.
     """
     parameters = {
         "normal_load": normal_load,
@@ -73,6 +76,7 @@ def friction_law(
         "viscous": viscous,
         "extrapolates": 0.0 if load_leg is None else 1.0,
         "backward": backward,
+        "reverse": reverse,
     }
     return ForceLaw(regularised, parameters, load_of=load_of, load_leg=load_leg)
 
@@ -112,6 +116,9 @@ viscous = "5 N s/m"
     static_coefficient: float | None = number(
         None, "of breakaway, mu_s; that of sliding without it", "", ge=0, le=2, example="0.15"
     )
+    backward_coefficient: float | None = number(
+        None, "of sliding where the coordinate falls; that of friction_coefficient without it", "", ge=0, le=2
+    )
     stribeck_velocity: float = quantity("10 mm/s", "speed at which it has fallen by 63 %", "assumed", gt=0)
     viscous: float = quantity("0 N s/m", "force over sliding speed", "assumed", ge=0, example="5 N s/m")
     slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
@@ -119,7 +126,8 @@ viscous = "5 N s/m"
     @property
     def without_friction(self) -> Self:
         """The viscous part alone."""
-        return self.model_copy(update={"friction_coefficient": 0.0, "static_coefficient": None})
+        none = {"friction_coefficient": 0.0, "static_coefficient": None, "backward_coefficient": None}
+        return self.model_copy(update=none)
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return the leg of the sliding distance: radius times angle, or position."""
@@ -141,12 +149,16 @@ viscous = "5 N s/m"
         demand(not own or joint.real is None, "joint", words)
         words = f"{joint.kind.named} has no reaction across its axis: give normal_load"
         demand(not own or joint.kind.holds_across, "normal_load", words)
+        backward, mu = self.backward_coefficient, self.friction_coefficient
+        words = "give the friction of the other direction above 0, over which this one is counted"
+        demand(backward is None or mu > 0.0, "friction_coefficient", words)
         return friction_law(
-            self.friction_coefficient,
+            mu,
             self.slip_velocity,
             normal_load=self.normal_load or 0.0,
             breakaway=static - self.friction_coefficient,
             stribeck_velocity=self.stribeck_velocity,
             viscous=self.viscous,
             load_of=self.joint if own else "",
+            reverse=1.0 if backward is None else backward / mu,
         )

@@ -5,7 +5,7 @@ r e × z from the centre of the pinion, and
 
     e·d_rack − (e·d_pinion + r θ) = constant.
 
-The multiplier is the force on the rack along its axis.
+The multiplier is the force on the rack along its axis. With backlash, its flanks push along this axis alone.
 """
 
 from collections.abc import Iterable
@@ -17,9 +17,10 @@ from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, quantity
 from tribodyn.kernels import dense
 from tribodyn.mechanism.elements import element as base
+from tribodyn.mechanism.elements.teeth import Teeth
 
 
-class Rack(base.ElementKeys):
+class Rack(Teeth):
     """A rack and pinion: the rack slides by the pitch radius times the angle of the pinion."""
 
     TABLE: ClassVar[str] = "racks"
@@ -56,6 +57,10 @@ torque = "0.2 N m"
         example="20 mm",
         required=True,
     )
+
+    def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
+        """Return the constraint or the contacts of teeth with backlash, and the friction of losses."""
+        return tuple(self.meshing(self.legs(joints), None))
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the leg of the pinion and that of the rack."""

@@ -11,7 +11,8 @@ on the coordinate
     s = r θ cos φ + z·d sin φ,
 
 by the law of ``joint_friction`` with the load N. A nut that lifts a weight W takes the torque of textbooks,
-W r tan(φ + ρ) with tan ρ = μ. With backlash the nut touches one flank or the other, each an elastic contact.
+W r tan(φ + ρ) with tan ρ = μ. With backlash the nut touches one flank or the other, each an elastic contact
+with friction of its own.
 """
 
 import math
@@ -75,6 +76,13 @@ torque = "0.2 N m"
         ge=0,
         le=2,
     )
+    backward_coefficient: float | None = number(
+        None,
+        "likewise where the load turns the screw; that of friction_coefficient without it",
+        "",
+        ge=0,
+        le=2,
+    )
     radius: float | None = quantity(
         None, "mean radius of the thread, at which it slides; needed with friction", "", gt=0, example="8 mm"
     )
@@ -109,38 +117,46 @@ torque = "0.2 N m"
     @property
     def without_friction(self) -> Self:
         """The screw whose thread has no friction."""
-        return self.model_copy(update={"friction_coefficient": 0.0})
+        return self.model_copy(update={"friction_coefficient": 0.0, "backward_coefficient": None})
 
     def equations(self, joints: base.Joints) -> tuple[base.Equation, ...]:
-        """Return the constraint with the force of friction, if any; with backlash a contact for each flank.
+        """Return the constraint, or with backlash a contact for each flank, and the friction on each.
 
         Legs of both flanks have opposite signs, so that each contact pushes.
         """
         (thread,) = self.legs(joints)
-        if self.backlash is not None and not self.ideal:
+        law, flanks = None, [thread]
+        if self.has_play:
             demand(self.stiffness is not None, "stiffness", "a thread with backlash needs its stiffness")
-            words = (
-                "the friction of a thread with backlash is not computed; leave one of them out, or give the "
-                "friction of its joint with a normal_load, in [frictions]"
-            )
-            demand(self.friction_coefficient == 0.0, "friction_coefficient", words)
-            law = flank_law(self.backlash, self.stiffness or 0.0, self.damping_factor, self.restitution)
+            stiffness = self.stiffness or 0.0
+            law = flank_law(self.backlash or 0.0, stiffness, self.damping_factor, self.restitution)
             other = replace(thread, along=-thread.along, about=-thread.about, reported=thread.along)
-            return tuple(base.Equation((flank,), law) for flank in (thread, other))
-        if self.friction_coefficient == 0.0:
-            return (base.Equation((thread,), None),)
+            flanks.append(other)
+        mu = self.friction_coefficient
+        backward = mu if self.backward_coefficient is None else self.backward_coefficient
+        words = "give both coefficients above 0, or none"
+        demand((mu > 0.0) == (backward > 0.0), "backward_coefficient", words)
+        if mu == 0.0:
+            return tuple(base.Equation((flank,), law) for flank in flanks)
         if self.radius is None:
             demand(False, "radius", "friction in a thread needs the mean radius at which it slides")
             raise AssertionError
         pitch = self.lead / (2.0 * math.pi)
         slope = float(portable.hypot(self.radius, pitch))
         cosine, sine = self.radius / slope, pitch / slope
-        sliding = replace(
-            thread, along=sine * thread.along, about=self.radius * cosine, reported=thread.along
-        )
-        law = friction_law(self.friction_coefficient / cosine, self.slip_velocity, load_leg=1)
-        turning, lifting = replace(thread, along=np.zeros(3)), _crosswise(thread)
-        return (base.Equation((turning, lifting), None), base.Equation((sliding,), law))
+        if self.lead > 0.0:  # the force across the flanks drives the nut where it has the sign of the sliding
+            mu, backward = backward, mu
+        found, lifted = [], _crosswise(thread).along
+        for flank in flanks:
+            lifting = replace(_crosswise(flank), reported=lifted)
+            found.append(base.Equation((replace(flank, along=np.zeros(3)), lifting), law))
+        for k, flank in enumerate(flanks):
+            along, about = sine * flank.along, self.radius * cosine * flank.about / thread.about
+            share = backward / mu
+            rubbing = friction_law(mu / cosine, self.slip_velocity, load_leg=2 * k + 1, backward=share)
+            sliding = replace(flank, along=along, about=about, reported=thread.along)
+            found.append(base.Equation((sliding,), rubbing))
+        return tuple(found)
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:
         """Return the leg from the screw to the nut."""
