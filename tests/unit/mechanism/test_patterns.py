@@ -196,3 +196,22 @@ def test_equal_copies_have_equal_errors_and_a_looser_one_its_own(ring: Case) -> 
     others = np.abs(loose[:, [0, 2]] - error[:, [0, 2]])
     assert np.max(others) < 2e-2 * np.max(np.abs(error))
     assert np.max(np.abs(loose[:, 1])) > 1.5 * np.max(np.abs(error[:, 1]))
+
+
+def test_a_second_link_spares_the_first_actuator_its_force() -> None:
+    text = TEMPLATES["vsv-ring"].text.replace('elastic = "beam"\n', "")
+    link = text[text.index("[bodies.actuator]") : text.index("[bodies.vane]")]
+    for old, new in (
+        *(("actuator", "second"), ("cylinder", "other"), ("piston", "push"), ("drag-link", "drag-link-2")),
+        *((" 420 mm", " -420 mm"), ('"150, ', '"-150, ')),
+    ):
+        link = link.replace(old, new)
+    motion = next(line for line in link.splitlines() if line.startswith("position"))
+    both = text + "\n" + link.replace(motion, 'force = { value = "20 N" }')
+    few = {"run.cycles": 0.1, "pattern.vanes.count": 2}
+    alone, shared = (td.simulate(parse_case(one, "test").replace(few)) for one in (text, both))
+    pulls = (one["drive_force"].sel(joint="cylinder") for one in (alone, shared))
+    pull, spared = (np.interp([0.1, 0.3, 0.5], one["time"].values, one.values) for one in pulls)
+    np.testing.assert_allclose(np.abs(pull - spared), 20.0, rtol=0.01)
+    with pytest.raises(InputError, match="drive one freedom"):
+        td.simulate(parse_case(text + "\n" + link, "test").replace(few))
