@@ -53,6 +53,26 @@ def machines(found: Found) -> Lines:
         )
 
 
+def bulk(found: Found) -> Lines:
+    """Give how elastic bodies change random machines."""
+    kinds = [found["random_machines"]["bulk"][name] for name in ("ELASTIC", "LOSSY")]
+    yield from head("", "without loss", "as lossy as asperities")
+    for name in ("machines", "stopped with rigid bodies", "stopped with elastic bodies", "sound with both"):
+        yield row(name, *(str(kind[name]) for kind in kinds))
+    for title, name in (
+        ("mean contact force", "contact_force_mean_N"),
+        ("sustained contact force", "contact_force_sustained_N"),
+        ("peak contact force", "contact_force_max_N"),
+        ("rms error of the vane angle", "error_rms_deg_vane"),
+    ):
+        changes = [kind[name] for kind in kinds]
+        yield row(f"{title}: within 1 %", *(str(change["within 1 %"]) for change in changes))
+        ends = ([100.0 * change[end] for end in ("median", "95 %")] for change in changes)
+        yield row(
+            f"{title}: median of its change, 95 %", *(f"{low:+.2g} %, {high:+.2g} %" for low, high in ends)
+        )
+
+
 def statics(found: Found) -> Lines:
     """Give how static analyses of random machines ended, and how far they are from dynamic runs."""
     measured = found["static_machines"]
@@ -86,5 +106,6 @@ def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
 TABLES: Final = {
     "kinks": stored(SOURCE, kinks),
     "random": stored(SOURCE, machines),
+    "bulk": stored(SOURCE, bulk),
     "statics": stored(SOURCE, statics),
 }

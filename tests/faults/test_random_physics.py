@@ -130,6 +130,11 @@ def elastic(chance: Chance) -> Changes:
     return mechanism(chance) | {"joint.bulk": "conformal"}
 
 
+def lossy(chance: Chance) -> Changes:
+    """Draw the same on bodies that return 0.7 of a speed, as asperities do."""
+    return elastic(chance) | {f"surfaces.{body}.loss_factor": 0.227 for body in ("trunnion", "bushing")}
+
+
 def undamped(chance: Chance) -> Changes:
     """Draw the same without damping: it rings until the end."""
     return mechanism(chance) | {"contact.damping_factor": "none"}
@@ -192,6 +197,7 @@ class Kind:
 
 MECHANISM = Kind("vsv", mechanism)
 ELASTIC = Kind("vsv", elastic)
+LOSSY = Kind("vsv", lossy)
 UNDAMPED = Kind("vsv", undamped)
 DRY = Kind("journal-dry", dry_journal)
 OIL = Kind("journal-oil", oil_journal)
