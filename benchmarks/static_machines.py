@@ -1,15 +1,20 @@
 """Static analyses of random mechanisms, and how far their errors are from those of dynamic runs.
 
     python -m benchmarks static_machines
+    python -m benchmarks.static_machines hysteresis [MACHINES]
 
 The mechanisms are the flat loops of ``tests/faults/random_mechanisms.py`` by their seeds, with the path of
 the last body as output. Those without a drive that prescribes a motion get one. A run that takes longer than
 ``LIMIT`` is stopped; both errors are then those of the time that it reached.
+
+With ``hysteresis`` their cranks swing slowly, and the dynamic run has friction that holds at rest. The width
+of the loop is the error on the way there less that on the way back, at the same position.
 """
 
 from __future__ import annotations
 
 import math
+import sys
 import time
 from collections import Counter
 from typing import Any, Final
@@ -21,11 +26,17 @@ from tests.faults.random_mechanisms import flat_loop
 import tribodyn as td
 from benchmarks.random_machines import quantiles
 from tribodyn.cases.case import Case
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import TribodynError
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.results.reading import column
 
 MACHINES: Final = 200
 LIMIT: Final = 2.0  #: Processor time of one run [s].
+#: The same of a slow run [s], and keys of the two runs whose loops are compared.
+SLOW: Final = 10.0
+STATIC: Final = {"run.analysis": "static", "run.positions": 200}
+AT_REST: Final = {"friction.rest": True, "run.output_interval": f"{2.0 * math.pi / 400} s"}
 _BEST: Final = "complete"
 _POSITIONS: Final = 12
 _REACHED: Final = 0.1  #: Part of a dynamic run that is enough for a comparison.
@@ -88,9 +99,50 @@ def rms(result: xr.Dataset, end: float) -> float:
     return found if found > 0.0 else math.nan
 
 
-def limited(case: Case) -> tuple[str, xr.Dataset | None]:
-    """Return how a run of at most ``LIMIT`` ended, in words, with its result, if it has rows."""
-    end = time.thread_time() + LIMIT
+def hysteresis(machines: int) -> dict[str, Any]:
+    """Print and return how far widths of static loops are from those of slow dynamic runs."""
+    found: list[FloatArray] = []
+    for seed in range(machines):
+        case = swinging(seed)
+        if any(joint.clearance for joint in case.joints.values()):
+            widths = [width(limited(case.replace(keys), SLOW)[1]) for keys in (STATIC, AT_REST)]
+            if all(len(one) for one in widths):
+                found.append(np.abs(widths[1] / widths[0] - 1.0))
+                print(seed, quantiles(found[-1].tolist()), flush=True)
+    medians = np.array([float(np.median(one)) for one in found])
+    told = {
+        "compared": len(found),
+        "positions within 2 %": float(np.mean(np.concatenate(found) < 0.02)),
+        "machines whose median is within 2 %": int(np.sum(medians < 0.02)),
+        "median of a machine": quantiles(medians.tolist()),
+    }
+    print(told, flush=True)
+    return told
+
+
+def swinging(seed: int) -> MechanismCase:
+    """Return the mechanism of a seed with a crank that swings once, there and back, in 2π seconds."""
+    drawing = flat_loop(np.random.default_rng(seed))
+    angle = {"value": "10 deg", "swing": "10 deg", "angular_frequency": "1 rad/s", "phase": "-90 deg"}
+    drawing.more["outputs"] = {"last": {"body": "rocker"}}
+    drawing.more["drives"] = {"drive-0": {"joint": "joint-0", "angle": angle}}
+    drawing.more["loads"] = {}
+    drawing.more["run"] = {"duration": f"{2.0 * math.pi} s"}
+    return drawing.case()
+
+
+def width(result: xr.Dataset | None) -> FloatArray:
+    """Return the widths of the loop of the output [m or rad] where it has developed; none of a part."""
+    if result is None or float(column(result, "time")[-1]) < 2.0 * math.pi * (1.0 - 1e-9):
+        return np.empty(0)
+    times, error = column(result, "time"), column(result, "output_error")[:, 0]
+    there = np.linspace(0.05, 0.45, 81) * times[-1]
+    return np.asarray(np.interp(there, times, error) - np.interp(times[-1] - there, times, error))
+
+
+def limited(case: Case, limit: float = LIMIT) -> tuple[str, xr.Dataset | None]:
+    """Return how a run of at most some processor time ended, in words, with its result, if it has rows."""
+    end = time.thread_time() + limit
     try:
         result = td.simulate(case, stop=lambda: time.thread_time() > end)
     except TribodynError as error:
@@ -101,4 +153,7 @@ def limited(case: Case) -> tuple[str, xr.Dataset | None]:
 
 
 if __name__ == "__main__":
-    run()
+    if "hysteresis" in sys.argv:
+        hysteresis(int(sys.argv[2]) if len(sys.argv) > 2 else MACHINES)
+    else:
+        run()

@@ -177,6 +177,62 @@ def test_a_pin_holds_in_its_bore() -> None:
     assert moved(free, 5.0) > 1e-6
 
 
+SHAPES: dict[str, dict[str, Any]] = {
+    "square": {"width": "30 mm", "height": "20 mm", "length": "60 mm"},
+    "dovetail": {
+        "shape": "dovetail",
+        "width": "30 mm",
+        "height": "10 mm",
+        "flank_angle": "60 deg",
+        "length": "60 mm",
+    },
+    "cylinder": {"shape": "cylinder", "radius": "10 mm", "length": "60 mm"},
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_block_holds_in_a_guide_with_play(shape: str) -> None:
+    drawn = td.Mechanism("Block", gravity=f"0, 0, -{GRAVITY} m/s^2", friction=HELD, run={"duration": "100 s"})
+    drawn.body("block", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    axis = [math.cos(STEEP), 0.0, -math.sin(STEEP)]
+    drawn.prismatic("face", "ground", "block", point="0, 0, 0 mm", axis=axis, second_axis=[0, 1, 0])
+    drawn.clearance("face", radial="20 um", friction_coefficient=0.3, **SHAPES[shape])
+    run = td.simulate(drawn.case())
+    assert run.attrs["failure"] == ""
+    assert moved(run, 5.0) < 1e-9 * SIZE
+
+
+def test_a_ball_holds_in_its_socket() -> None:
+    drawn = td.Mechanism("Ball", gravity=f"0, -{GRAVITY}, 0 m/s^2", friction=HELD, run={"duration": "100 s"})
+    drawn.body("arm", mass="1 kg", centre="0.3, 0, 0.2 mm", inertia="1e-4, 1e-4, 1e-4 kg m^2")
+    drawn.spherical("seat", "ground", "arm", point="0, 0, 0 mm")
+    drawn.clearance(
+        "seat", radius="10 mm", radial="20 um", friction_coefficient=0.1, nodes_around=48, nodes_along=12
+    )
+    assert moved(td.simulate(drawn.case()), 5.0) < 1e-9 * SIZE
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_friction_of_a_guide_with_play_gives_no_energy_under_random_loads(seed: int) -> None:
+    """Its heat never falls by more than what sticks can store, below mu N delta with the largest load N."""
+    random, times = np.random.default_rng(seed), np.linspace(0.0, 2.0, 81)
+    drawn = td.Mechanism("Block", friction=HELD, run={"duration": "2 s"})
+    drawn.body("block", mass="2 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+    drawn.prismatic("face", "ground", "block", point="0, 0, 0 mm", axis=[1, 0, 0], second_axis=[0, 1, 0])
+    drawn.clearance("face", radial="20 um", friction_coefficient=0.3, **SHAPES["square"])
+    largest = 0.0
+    for name, direction, size in (("across", [0, 0, -1], 40.0), ("along", [1, 0, 0], 8.0)):
+        values = size * random.normal(size=times.size)
+        largest = max(largest, float(np.abs(values).max()))
+        table = {"times": [f"{t} s" for t in times], "values": [f"{force} N" for force in values]}
+        drawn.load(name, body="block", point="0, 0, 0 mm", direction=direction, force=table)
+    run = td.simulate(drawn.case())
+    heat = run["energy_friction"].values
+    assert run.attrs["failure"] == ""
+    assert (np.maximum.accumulate(heat) - heat).max() < 0.3 * largest * 1e-6
+    assert heat[-1] > 10.0 * 0.3 * largest * 1e-6
+
+
 def test_a_sliding_pin_has_the_friction_of_the_regularised_law() -> None:
     found = []
     for held in (True, False):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from benchmarks.static_machines import AT_REST, STATIC, swinging, width
 from tribodyn.results.reading import column
 
 MANY = 200
@@ -97,3 +98,13 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
     assert (
         "% of the sliding in joint axle is below five slip velocities" in td.simulate(drawn).attrs["notes"]
     ) == noted
+
+
+@pytest.mark.parametrize(
+    "seed", [pytest.param(1, marks=pytest.mark.long), 2, pytest.param(7, marks=pytest.mark.long)]
+)
+def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seed: int) -> None:
+    """At most positions: elsewhere the dynamic run rests in another state, that of seed 3 throughout."""
+    case = swinging(seed)
+    static, slow = (width(td.simulate(case.replace(keys))) for keys in (STATIC, AT_REST))
+    assert np.median(np.abs(slow / static - 1.0)) < 0.02
