@@ -87,9 +87,9 @@ DESIGN_RANGE: Final = (-4.0, 4.0)
 class ContactLaw(ABC):
     """Two functions of the separation h* = h/σ; nothing else is asked of a law.
 
-    All functions take separations h* [1] of any shape and return an array of that shape. A law is evaluated
-    when it is tabulated and where a user plots it, never inside a simulation. A new law gives
-    ``stiffness_pressure``; its damping follows from the named factor.
+    All functions take an array of any shape and return an array of that shape. A law is evaluated when it is
+    tabulated and where a user plots it, never inside a simulation. A new law gives ``stiffness_pressure``;
+    its damping follows from the named factor.
 
     Parameters
     ----------
@@ -154,26 +154,61 @@ class ContactLaw(ABC):
 
     @abstractmethod
     def stiffness_pressure(self, h_star: FloatArray) -> FloatArray:
-        """Return the pressure P_k(h*) of the surfaces at rest [Pa]."""
+        """Return the pressure P_k(h*) of the surfaces at rest.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``.
+        """
 
     def real_area_fraction(self, h_star: FloatArray) -> FloatArray:
-        """Return the real contact area over the nominal one [1].
+        """Return the real contact area over the nominal one.
 
-        NaN where the theory gives none.
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``; NaN where the theory gives none.
         """
         return np.full(np.shape(h_star), np.nan)
 
     def contact_count(self, h_star: FloatArray) -> FloatArray:
-        """Return the number of contacts per nominal area [1/m²].
+        """Return the number of contacts per nominal area.
 
-        NaN where the theory gives none.
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1/m²], shape of ``h_star``; NaN where the theory gives none.
         """
         return np.full(np.shape(h_star), np.nan)
 
     def touching_share(self, h_star: FloatArray) -> FloatArray:
-        """Return the share of asperities that touch, on which ``kelvin-voigt`` puts its dashpots [1].
+        """Return the share of asperities that touch, on which ``kelvin-voigt`` puts its dashpots.
 
-        By default that of Gaussian heights above h*.
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``; by default that of Gaussian heights above h*.
         """
         return exceedance(np.asarray(h_star, dtype=np.float64))
 
@@ -183,9 +218,17 @@ class ContactLaw(ABC):
         return DAMPING_FACTORS[self.damping_factor]
 
     def meant_restitution(self, h_star: FloatArray) -> FloatArray:
-        """Return the restitution e given to the factor at each separation [1].
+        """Return the restitution e given to the factor at each separation.
 
-        1 without one.
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``; 1 without one.
         """
         return np.full(np.shape(h_star), 1.0 if self.restitution is None else self.restitution)
 
@@ -193,6 +236,11 @@ class ContactLaw(ABC):
         """Return the coefficient C(h*) of the damping pressure P_d = C·δ̇/δ̇₋.
 
         For ``calibrated`` it is that of a point contact; :func:`tabulate` scales it to the surface.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
 
         Returns
         -------
@@ -216,7 +264,12 @@ class ContactLaw(ABC):
         return self.damping_for(ratio, h_star)
 
     def design_separation(self) -> float:
-        """Return the separation h* at which the stiffness pressure is the design pressure [1].
+        """Return the separation h* at which the stiffness pressure is the design pressure.
+
+        Returns
+        -------
+        float
+            [1].
 
         Raises
         ------
@@ -238,7 +291,7 @@ class ContactLaw(ABC):
         return float(brentq(excess, first, last, xtol=1.0e-13))
 
     def damping_for(self, ratio: FloatArray, h_star: FloatArray) -> FloatArray:
-        """Return the coefficient C for a ratio of damping to stiffness [Pa], shape of ``h_star``.
+        """Return the coefficient C for a ratio of damping to stiffness.
 
         Parameters
         ----------
@@ -246,15 +299,25 @@ class ContactLaw(ABC):
             Damping pressure over stiffness pressure at δ̇ = δ̇₋ [1], shape of ``h_star``.
         h_star
             Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``.
         """
         return ratio * self.stiffness_pressure(h_star)
 
     def pressure(self, gap: FloatArray) -> FloatArray:
-        """Return the pressure P_k of the surfaces at rest [Pa], shape of ``gap``.
+        """Return the pressure P_k of the surfaces at rest.
 
         Parameters
         ----------
         gap
             Distance of the mean planes [m], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``gap``.
         """
         return self.stiffness_pressure(np.asarray(gap, dtype=np.float64) / self.pair.roughness_rms)

@@ -38,6 +38,11 @@ class RSDC(KogutEtsion):
     def works(self, h_star: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the elastic and the plastic work per area on closing from far apart.
 
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
         Returns
         -------
         elastic, plastic : numpy.ndarray
@@ -50,21 +55,42 @@ class RSDC(KogutEtsion):
         return elastic + both, plastic + both
 
     def loss_factor(self, h_star: FloatArray) -> FloatArray:
-        """Return μ = W_p/W_e [1].
+        """Return μ = W_p/W_e.
 
         Where both works underflow (h* above 35) it is their limit 0: so far apart contact is elastic.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``.
         """
         elastic, plastic = self.works(h_star)
         return np.divide(plastic, elastic, out=np.zeros_like(plastic), where=plastic > 0.0)
 
     def meant_restitution(self, h_star: FloatArray) -> FloatArray:
-        """Return e = 1/√(μ + 1), or the restitution asked for [1]."""
+        """Return e = 1/√(μ + 1), or the restitution asked for.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``.
+        """
         if self.restitution is not None:
             return super().meant_restitution(h_star)
         return np.asarray(1.0 / np.sqrt(self.loss_factor(h_star) + 1.0))
 
     def damping_for(self, ratio: FloatArray, h_star: FloatArray) -> FloatArray:
-        """Return C = (4/3)a·Eξ√β σ^1.5 ∫_0^∞ s^1.5 Φ(h* + s) ds [Pa], shape of ``h_star``.
+        """Return C = (4/3)a·Eξ√β σ^1.5 ∫_0^∞ s^1.5 Φ(h* + s) ds.
 
         With the Lankarani-Nikravesh factor (4/3)a = 1 − e² = μ/(μ + 1), which is Eq. 10.
 
@@ -74,6 +100,11 @@ class RSDC(KogutEtsion):
             (4/3)a of the damping factor [1], shape of ``h_star``.
         h_star
             Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``.
         """
         pair = self.summits
         stress = pair.composite_modulus * pair.asperity_parameter

@@ -44,7 +44,7 @@ class SelfAffine:
             raise InputError("needs sigma > 0, 0 < hurst < 1 and 0 < shortest < roll_off")
 
     def density(self, q: FloatArray, dimension: int) -> FloatArray:
-        """Return the two-sided spectral density of the heights [m²·m^dimension], shape of ``q``.
+        """Return the two-sided spectral density of the heights.
 
         Parameters
         ----------
@@ -52,6 +52,11 @@ class SelfAffine:
             Wavenumbers 2π/λ [rad/m], any shape.
         dimension
             2 of a map, 1 of a profile.
+
+        Returns
+        -------
+        numpy.ndarray
+            [m²·m^dimension], shape of ``q``.
         """
         first, last = self._band
         shape = np.maximum(q / first, 1.0) ** (-dimension - 2.0 * self.hurst)
