@@ -93,7 +93,8 @@ def test_a_screw_holds_under_vibration() -> None:
 
 def law(**changes: float) -> tuple[Record, Record]:
     """Return parameters and arguments of the law of the bristle."""
-    given = {"normal_load": 10.0, "friction_coefficient": 0.2, "stribeck_velocity": 1.0, "presliding": 1e-6}
+    given = {"normal_load": 10.0, "friction_coefficient": 0.2, "stribeck_velocity": 1.0}
+    given |= {"presliding": 1e-6, "reverse": 1.0}
     joint = new_record(bristle.fields)
     for name, value in (given | changes).items():
         setattr(joint, name, value)
