@@ -66,11 +66,16 @@ def bulk(found: Found) -> Lines:
         ("rms error of the vane angle", "error_rms_deg_vane"),
     ):
         changes = [kind[name] for kind in kinds]
-        yield row(f"{title}: within 1 %", *(str(change["within 1 %"]) for change in changes))
-        ends = ([100.0 * change[end] for end in ("median", "95 %")] for change in changes)
+        yield row(f"{title}: within 1 %", *(str(one["within 1 %"]) for one in changes))
+        ends = ([100.0 * one[end] for end in ("median", "95 %")] for one in changes)
         yield row(
-            f"{title}: median of its change, 95 %", *(f"{low:+.2g} %, {high:+.2g} %" for low, high in ends)
+            f"{title}: median of its change, 95 %", *(f"{change(low)}, {change(high)}" for low, high in ends)
         )
+
+
+def change(percent: float) -> str:
+    """Return a change with two digits and its sign, never as a power of ten."""
+    return f"{float(f'{percent:.2g}'):+g} %"
 
 
 def statics(found: Found) -> Lines:
