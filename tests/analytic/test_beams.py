@@ -213,6 +213,17 @@ along = [0, 0, 1]
 """
 
 
+def test_loads_on_a_lever_on_a_spring_balance_at_the_start() -> None:
+    """Bending is some 1e8 times softer than stretching: the search for balance must not stiffen it."""
+    drawn = td.Mechanism("Lever", gravity="0, 0, -9.81 m/s^2", run={"duration": "10 us"})
+    keys = {"points": "0, 0, 0, 100, 0, 0 mm", "width": "10 mm", "height": "3 mm", "segments": 4}
+    drawn.body("lever", elastic="beam", beam=keys | {"young_modulus": "110 GPa", "density": "4430 kg/m^3"})
+    drawn.revolute("pin", "ground", "lever", point="0, 0, 0 mm", axis=[0, 1, 0])
+    drawn.clearance("pin", radius="5 mm", radial="20 um", length="20 mm", friction_coefficient=0.0)
+    drawn.torsion_spring("hold", "pin", stiffness="50 N m/rad")
+    assert td.simulate(drawn).attrs["warnings"] == "[]"
+
+
 def test_the_bending_part_of_a_levers_error_is_that_of_a_cantilever() -> None:
     """17 N at 50 mm of titanium, 10 × 3 mm: F L²/3EI, and 3 % of shear, which one may leave out."""
     slender = 17.0 * 50e-3**2 / (3.0 * 110e9 * 3e-3 * 10e-3**3 / 12.0)

@@ -44,6 +44,7 @@ _SETTLED: Final = 1.0e-3  #: Change of a gap, over the roughness, that counts as
 _BALANCED: Final = 1.0e-6  #: Load over the largest one met on the way that counts as zero.
 _LEAST: Final = 1.0  #: Stiffness of springs where there is no contact yet [N/m].
 _FLOOR: Final = 1.0e-6  #: The same over the largest stiffness.
+_FLOOR_OF_BEAMS: Final = 1.0e-10  #: The same where beams stretch: they are that much softer in bending.
 _STIFFER: Final = 4.0
 _SOFTER: Final = 3.0  #: Factors by which springs change.
 _BACK: Final = 0.5  #: Share of the load along a step that may have turned against it.
@@ -88,12 +89,13 @@ def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, f
     They are stiffer after a step that overshoots the place where the loads along it balance, else softer.
     """
     residual, moved = loads.residual(), 0.0
+    floor = _FLOOR_OF_BEAMS if loads.bends else _FLOOR
     for steps in range(_MOST_STEPS):
         stiffness, even = loads.stiffness()
         if loads.over_loads:
             # Without any loads what is left to balance is rounding.
             loads.largest = max(loads.largest, loads.rounding(stiffness) / _BALANCED)
-        soft = max(soft, _FLOOR * float(np.max(np.abs(stiffness))), _LEAST)
+        soft = max(soft, floor * float(np.max(np.abs(stiffness))), _LEAST)
         for _ in range(_MOST_STEPS):
             step = shortest(stiffness + soft * even, residual)
             far = loads.turned(step)
