@@ -12,7 +12,7 @@ from tribodyn.figures import style
 
 #: Part of the error that joints cause only together, in the place of a joint.
 TOGETHER: Final = "only together"
-_COLOURS: Final = (style.ORANGE, style.GREEN, style.PURPLE)
+_COLOURS: Final = (style.ORANGE, style.GREEN, style.PURPLE, style.VERMILION)
 _ROOM: Final = 1.25  #: Height of title, axis and legend [in].
 _ROW: Final = 0.34
 _THICK: Final = 0.36
@@ -48,16 +48,17 @@ def draw(shares: Shares) -> Figure:
     bars = axes.barh(rows - offset, values, height=_THICK, color=style.BLUE, label="simulation")
     axes.bar_label(bars, fmt="%.1f %%", padding=3, size=style.SMALL)
     left = np.zeros((2, len(order)))
-    for cause, part, colour in zip(shares.causes, 100.0 * shares.estimate[order].T, _COLOURS, strict=False):
+    parts = 100.0 * shares.estimate[order].T
+    for cause, part, colour in zip(shares.causes, parts, _COLOURS[: len(parts)], strict=True):
         side = left[(part < 0.0).astype(int), np.arange(part.size)]
-        label = f"superposition: {cause}"
-        axes.barh(rows[:-1] + offset, part, _THICK, left=side, color=colour, label=label)
+        axes.barh(rows[:-1] + offset, part, _THICK, left=side, color=colour, label=cause)
         left += np.stack([np.maximum(part, 0.0), np.minimum(part, 0.0)])
     axes.axvline(0.0, color=style.INK, lw=0.8)
     axes.set_yticks(rows, [style.plain(name) for name in names])
     axes.invert_yaxis()
     axes.use_sticky_edges = False
     axes.margins(x=0.12, y=0.03)
-    style.finish(axes, "share of the mean square error [%]")
+    causes = "; causes by superposition" if known else ""
+    style.finish(axes, f"share of the mean square error [%]{causes}")
     style.legend(axes, 1 + len(shares.causes))
     return figure

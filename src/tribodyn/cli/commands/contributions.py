@@ -7,7 +7,7 @@ import os
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 HELP = "divide the error of each output among the joints with clearance"
 EXAMPLE = "tribodyn contributions four-bar"
+_NOTHING: Final = 1.0e-9  #: Error of a joint over that of all that is rounding.
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -74,7 +75,8 @@ def _tell(one: OutputShares, console: Console) -> None:
     console.say(f"\n  {'joint':<24}{'alone':>12} {unit:<6}{'share':>10}" + "".join(f"{h:>18}" for h in heads))
     for k in (-one.shares).argsort():
         parts = (one.estimate[k].sum(), *one.estimate[k]) if known else ()
-        row = f"  {one.joints[k]:<24}{one.alone[k]:>12.4g} {unit:<6}{one.shares[k]:>10.1%}"
+        alone = one.alone[k] if one.alone[k] > _NOTHING * one.together else 0.0
+        row = f"  {one.joints[k]:<24}{alone:>12.4g} {unit:<6}{one.shares[k]:>10.1%}"
         console.say(row + "".join(f"{part:>18.1%}" for part in parts))
     console.say(f"  {'only together':<24}{'':>12} {'':<6}{one.interaction:>10.1%}")
 
