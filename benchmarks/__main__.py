@@ -29,7 +29,6 @@ NAMES: Final = (
     "long_run",
     "command",
     "sweep",
-    "builds",
     "ring",
     "workbench",
     "cash",
@@ -37,6 +36,8 @@ NAMES: Final = (
     "random_machines",
     "static_machines",
 )
+#: Those that take hours, each a command of its own.
+BY_HAND: Final = ("builds",)
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"
 
 

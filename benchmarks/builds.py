@@ -1,6 +1,6 @@
 """Builds of a vane ring with rigid levers: against full draws, against rings as a whole, killed and resumed.
 
-python -m benchmarks.builds                    400 vanes alone and 4 rings of 40
+python -m benchmarks.builds                    4,000 vanes alone and 100 rings of 40; some hours
 python -m benchmarks.builds 4000 30 FOLDER     so many vanes and rings; what is in the folder is kept
 python -m benchmarks.builds killed 1000        so many vanes on two workers, killed and resumed
 
@@ -116,7 +116,7 @@ def run(quick: bool = False) -> dict[str, Any]:
     """Measure, print and return; ``quick``: few vanes and rings over a moment."""
     if quick:
         return measure(12, 3, None, 4, {"run.cycles": 0.05})
-    return measure(400, 4, None)
+    return measure(4000, 100, None)
 
 
 def main(said: list[str]) -> None:

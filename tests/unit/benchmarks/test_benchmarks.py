@@ -7,13 +7,14 @@ import json
 
 import pytest
 
-from benchmarks.__main__ import NAMES
+from benchmarks.__main__ import BY_HAND, NAMES
 
 LASTING = ("long_run", "vsv", "workbench")  #: These take many seconds even so.
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.long) if name in LASTING else name for name in NAMES]
+    "name",
+    [pytest.param(name, marks=pytest.mark.long) if name in LASTING else name for name in (*NAMES, *BY_HAND)],
 )
 def test_a_benchmark_runs(name: str) -> None:
     found = importlib.import_module(f"benchmarks.{name}").run(quick=True)
