@@ -44,7 +44,8 @@ _SETTLED: Final = 1.0e-3  #: Change of a gap, over the roughness, that counts as
 _BALANCED: Final = 1.0e-6  #: Load over the largest one met on the way that counts as zero.
 _LEAST: Final = 1.0  #: Stiffness of springs where there is no contact yet [N/m].
 _FLOOR: Final = 1.0e-6  #: The same over the largest stiffness.
-_FLOOR_OF_BEAMS: Final = 1.0e-10  #: The same where beams stretch: they are that much softer in bending.
+#: The same where beams stretch, once a search has not ended: they are that much softer in bending.
+_FLOOR_OF_BEAMS: Final = 1.0e-10
 _STIFFER: Final = 4.0
 _SOFTER: Final = 3.0  #: Factors by which springs change.
 _BACK: Final = 0.5  #: Share of the load along a step that may have turned against it.
@@ -60,7 +61,7 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     A change of gaps below ``change`` over the roughness counts as zero; after one below ``near``, which grows
     from look to look, the possible motions are not looked for again.
     """
-    soft, quiet = 0.0, False
+    soft, quiet, floor = 0.0, False, _FLOOR
     for look in range(_MOST_LOOKS):
         if near and look >= _PLAIN_LOOKS:
             loads.survey()
@@ -68,7 +69,9 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
             loads.look()
         if quiet and loads.unbalance() <= _BALANCED:
             return loads.state
-        steps, moved, soft = _newton(loads, soft, change) if loads.motions.size else (0, 0.0, soft)
+        steps, moved, soft = _newton(loads, soft, floor, change) if loads.motions.size else (0, 0.0, soft)
+        if steps == _MOST_STEPS and loads.bends:
+            floor = _FLOOR_OF_BEAMS
         if loads.waits:
             loads.waits = False
             continue
@@ -82,14 +85,14 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     return None
 
 
-def _newton(loads: JointLoads, soft: float, least: float) -> tuple[int, float, float]:
+def _newton(loads: JointLoads, soft: float, floor: float, least: float) -> tuple[int, float, float]:
     """Make steps until one changes nothing; return their number and changes, and the stiffness of springs.
 
     Springs under all nodes, of stiffness ``soft`` [N/m] in each joint, hold a step where contact does not.
-    They are stiffer after a step that overshoots the place where the loads along it balance, else softer.
+    They are stiffer after a step that overshoots the place where the loads along it balance, else softer,
+    down to ``floor`` of the largest stiffness.
     """
     residual, moved = loads.residual(), 0.0
-    floor = _FLOOR_OF_BEAMS if loads.bends else _FLOOR
     for steps in range(_MOST_STEPS):
         stiffness, even = loads.stiffness()
         if loads.over_loads:
