@@ -214,6 +214,10 @@ class Case(Group):
         """Return the interval of the wear of equal joints over that at the rate, by joint, ``""`` for all."""
         return {}
 
+    def rigid(self) -> Self | None:
+        """Return the case with rigid bodies; None where no body is elastic."""
+        return None
+
     def idle(self) -> tuple[str, ...]:
         """Return the paths of keys that others override; by default there are none."""
         return ()

@@ -22,6 +22,11 @@ MADE_FOR_AN_IMPACT = ("calibrated", "kelvin-voigt")  #: Damping factors that use
 _MOST_OUTPUT_TIMES = 2_000_000
 
 
+def _loss_factor() -> Any:
+    words = "tan delta of the body under the asperities; it loses none without it"
+    return number(None, words, "", ge=0, le=1, example="0.005")
+
+
 class Trunnion(Group):
     """Surface of the trunnion (element 1)."""
 
@@ -48,14 +53,7 @@ class Trunnion(Group):
         example="16 W/(m K)",
     )
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="4 mm^2/s")
-    loss_factor: float | None = number(
-        None,
-        "tan delta of the body under the asperities; it loses none without it",
-        "",
-        ge=0,
-        le=1,
-        example="0.005",
-    )
+    loss_factor: float | None = _loss_factor()
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
 
@@ -86,14 +84,7 @@ class Bushing(Group):
         example="0.35 W/(m K)",
     )
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="0.2 mm^2/s")
-    loss_factor: float | None = number(
-        None,
-        "tan delta of the body under the asperities; it loses none without it",
-        "",
-        ge=0,
-        le=1,
-        example="0.005",
-    )
+    loss_factor: float | None = _loss_factor()
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
 
 

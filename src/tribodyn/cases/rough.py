@@ -42,9 +42,7 @@ class RoughCase(Case):
 
     def remarks(self) -> Remarks:
         """Return remarks on the two surfaces and on tables."""
-        yields = value_at(self, "joint.bulk") if "joint.bulk" in keys_in(self) else "none"
-        bodies = of_loss(self, () if yields == "none" else ("",))
-        return super().remarks() + of_surfaces(self) + bodies + of_tables(self.followed())
+        return super().remarks() + of_surfaces(self) + of_tables(self.followed())
 
     def rough_clearances(self) -> dict[str, float]:
         """Return the combined rms roughness σ of bushing and trunnion [m] by the path of their clearance."""

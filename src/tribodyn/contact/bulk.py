@@ -71,8 +71,8 @@ class Bulk:
         return radius * math.sqrt(2.0 * y) * fit / self.modulus
 
 
+#: Levels with the contact table that they are made of: as long as it is kept, no other has its address.
 _levels: Final[Remembered[tuple[ContactTable, tuple[ContactTable, ...]]]] = Remembered(16)
-"""Levels with the contact table that they are made of: as long as it is kept, no other has its address."""
 
 
 def elastic_bodies(table: ContactTable, law: ContactLaw, size: float) -> Bulk:

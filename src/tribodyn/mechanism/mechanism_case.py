@@ -12,7 +12,7 @@ from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, followed, of_tables
-from tribodyn.cases.case import Case, demand, demand_known
+from tribodyn.cases.case import Case, demand, demand_known, with_entries
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
 from tribodyn.cases.groups import Contact, check_output_interval
 from tribodyn.cases.joint_keys import FilmGridKeys, Wear
@@ -31,7 +31,7 @@ from tribodyn.mechanism.elements.element import ElementKeys
 from tribodyn.mechanism.elements.joint_friction import JointFriction, regularised
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.model import solids
-from tribodyn.mechanism.model.beam_nodes import of_rigid, with_nodes
+from tribodyn.mechanism.model.beam_nodes import elastic_keys, of_rigid, with_nodes
 from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.model.drives_and_loads import (
     COORDINATE_OF,
@@ -474,6 +474,11 @@ class MechanismCase(_WithElements):
                 demand(coordinate in free, key, f"this joint has no {coordinate} that a table could follow")
             words = "its tables follow both the angle and the position of this joint: write two loads"
             demand(len({COORDINATE_OF[over] for over in load.joint_axes}) < 2, key, words)
+
+    def rigid(self) -> Self | None:
+        """Return the case with rigid bodies; None where no body is elastic."""
+        elastic = elastic_keys(self.written)
+        return with_entries(self, {}, "rigid bodies", elastic) if elastic else None
 
     def without_play(self) -> Self:
         """Return the case with elements as the ideal counterpart has them: without play."""

@@ -26,7 +26,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from tribodyn.cases import Case, keys_in
-from tribodyn.cases.case import with_entries
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.mechanisms.catalogue import load_case
@@ -113,12 +112,12 @@ def contributions(
         return [read(Path(directory) / POINTS / point.name) for point in plan.points]
 
     every, each = np.ones(len(switches), bool), np.eye(len(switches), dtype=bool)
-    if elastic := _elastic(chosen):
-        whole, bent = simulated(chosen, np.vstack([every, ~every]))
-        alone = [*simulated(with_entries(chosen, {}, "rigid bodies", elastic), each), bent]
-    else:
+    joints, rigid = (*switches,), chosen.rigid()
+    if rigid is None:
         whole, *alone = simulated(chosen, np.vstack([every, each]))
-    joints = (*switches, *((BENDING,) if elastic else ()))
+    else:
+        whole, bent = simulated(chosen, np.vstack([every, ~every]))
+        joints, alone = (*switches, BENDING), [*simulated(rigid, each), bent]
     ideal = _kinematic(chosen)
     shares = [_shares_of(str(output), whole, alone, joints, ideal) for output in whole["output"].values]
     known = tuple(one for one in shares if np.isfinite(one.together))
@@ -149,12 +148,6 @@ def real_joints(case: Case) -> dict[str, str]:
     if not found:
         raise InputError("no joint has clearance; write joints.NAME.clearance", key="joints")
     return found
-
-
-def _elastic(case: Case) -> list[str]:
-    """Return the paths of the keys that let bodies bend."""
-    written: Mapping[str, object] = getattr(case, "written", {})
-    return [path for path in written if path.startswith("bodies.") and path.endswith(".elastic")]
 
 
 def _plan(case: Case, joints: Mapping[str, str], real: NDArray[np.bool_]) -> SweepPlan:

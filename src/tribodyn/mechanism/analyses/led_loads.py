@@ -13,31 +13,31 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import MechanismData
-from tribodyn.mechanism.analyses.linearised import LinearEquations
+from tribodyn.mechanism.analyses.linearised import NEVER_ENTERED, LinearEquations
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.equilibrium import JointLoads
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.passage import closes, placed
-from tribodyn.mechanism.assembly.positions import held, undamped
+from tribodyn.mechanism.assembly.positions import held
 from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
 
 #: Names of parameters of laws: where friction is developed, and the least speed at which contact begins.
 SLIP: Final = "slip_velocity"
 ENTRY: Final = "least_rate"
-_NEVER_ENTERED: Final = 1.0e30  #: Speed at which contact began that leaves no damping of impacts [m/s].
 _FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
 
 
 def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
-    """Return a mechanism whose friction is developed from a slip velocity on [m/s], in its data.
+    """Return a mechanism whose friction is developed from a slip velocity on [m/s], undamped, in its data.
 
     Positions along drives have no time scale: friction has its direction from the motion, and its size not,
-    and stops and flanks do not damp.
+    and forces of contacts, stops and flanks do not depend on the speed of approach.
     """
     surfaces, couplings = data.contact.surfaces.copy(), data.parts.couplings.copy()
     for records in (surfaces, couplings):
         records["slip_velocity"] = np.minimum(records["slip_velocity"], slip)
+    surfaces["minimum_entry_velocity"] = NEVER_ENTERED
     number = model.first_leg
     for element in model.elements:
         for equation in element.equations:
@@ -46,7 +46,7 @@ def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
             if SLIP in names:
                 values[:, names.index(SLIP)] = np.minimum(values[:, names.index(SLIP)], slip)
             if ENTRY in names:
-                values[:, names.index(ENTRY)] = _NEVER_ENTERED
+                values[:, names.index(ENTRY)] = NEVER_ENTERED
             number += len(equation.legs)
     parts = data.parts._replace(couplings=couplings)
     return data._replace(contact=data.contact._replace(surfaces=surfaces), parts=parts)
@@ -68,7 +68,7 @@ class LedLoads(JointLoads):
     def __init__(self, assembly: Assembly, ideal_rank: int, slip: float) -> None:
         ideal = placed(System(assembly.model.counterpart), assembly)
         super().__init__(assembly, ideal, over_loads=True)
-        self.data = developed(undamped(self.data), assembly.model, slip)
+        self.data = developed(self.data, assembly.model, slip)
         self._direction = 1.0
         self._centred: LinearEquations | None = None
         for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):

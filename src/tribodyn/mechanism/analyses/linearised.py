@@ -25,7 +25,7 @@ from tribodyn.mechanism.assembly.mechanism_problem import length_scale, mechanis
 from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.positions import held
 
-_ELASTIC: Final = 1.0e30  #: Speed at which contact began that leaves no damping of impacts [m/s].
+NEVER_ENTERED: Final = 1.0e30  #: Speed at which contact began that leaves no damping of impacts [m/s].
 _MOST_STEPS: Final = 200
 #: Largest step, turns [rad] and ways in units of the length that positions are resolved against.
 _LONGEST: Final = 0.2
@@ -94,8 +94,8 @@ class Linearised:
         allowed = null_space(g, self._rank) if system.rows else np.eye(6 * system.n)
         memory.now.couplings["angle_mark"] = system.now.couplings["angle_mark"]
         self._functions.enter(t, y, self._data, memory)
-        memory.contact.entry_velocity[:] = _ELASTIC
-        memory.now.couplings["law"]["entry_rate"] = _ELASTIC
+        memory.contact.entry_velocity[:] = NEVER_ENTERED
+        memory.now.couplings["law"]["entry_rate"] = NEVER_ENTERED
         rates, jacobian = np.empty(y.size), np.zeros((y.size, y.size))
         self._functions.jac(t, y, self._data, memory, rates, jacobian)
         rows = _rows_of_velocity(system.n)

@@ -26,7 +26,7 @@ from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
-from tribodyn.mechanism.assembly.positions import DrivePath, undamped, walked
+from tribodyn.mechanism.assembly.positions import DrivePath, walked
 from tribodyn.mechanism.assembly.start import settled
 from tribodyn.mechanisms.self_checks import TOO_CLOSE
 
@@ -82,7 +82,7 @@ def find_equilibria(
     """
     path = DrivePath(times, turn)
     equilibria = Equilibria(assembly, path)
-    data = developed(undamped(problem.data), assembly.model, equilibria.slip)
+    data = developed(problem.data, assembly.model, equilibria.slip)
     still = replace(problem, data=data)
     found = walked(still, path, equilibria, picture_times, progress)
     words = (
@@ -193,14 +193,13 @@ class Equilibria:
         times, self._where = np.unique(path.of_drives, return_inverse=True)
         found = IdealMechanism(assembly).follow(times)
         self._path, self._model = path, assembly.model
-        self._bodies, self._joints = assembly.model.bodies, assembly.model.joints
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank, self.slip = counterpart.independence()[0], _CREEP * _fastest(self._ideal, counterpart.size)
         self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
-        self.middle = Middle(assembly, times) if rank < 6 * len(self._bodies) else None
+        self.middle = Middle(assembly, times) if rank < 6 * len(self._model.bodies) else None
 
     def __call__(self, number: int) -> FloatArray:
         """Return the equilibrium at a position, see :class:`~.positions.States`."""
@@ -237,7 +236,7 @@ class Equilibria:
 
     def _why_not(self) -> str:
         """Return why the last search ended without an equilibrium, in words."""
-        joints, overlapping, lost = self._joints, self._loads.overlapping(), self._loads.lost()
+        joints, overlapping, lost = self._model.joints, self._loads.overlapping(), self._loads.lost()
         if lost is not None:
             return (
                 f"the loads move the shaft of joint {joints[lost]} out of its bore; nothing holds it along "
@@ -284,9 +283,8 @@ class Equilibria:
         """Refuse an equilibrium of the clearances alone, where the mechanism as a whole is pushed away."""
         pushed = self._loads.unbalanced()
         if pushed is not None:
-            words = (
-                f"there is no static equilibrium: body {self._bodies[pushed]} moves under its loads, along a"
-            )
+            body = self._model.bodies[pushed]
+            words = f"there is no static equilibrium: body {body} moves under its loads, along a"
             raise self._failure(number, f"{words} freedom that no joint, drive or spring holds")
 
     def _failure(self, number: int, words: str) -> IntegrationFailure:

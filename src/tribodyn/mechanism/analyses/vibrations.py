@@ -244,12 +244,12 @@ def _held(
     bound = force * ways**2 / length_scale(assembly)
     kept = np.full(ways.size, True)
     for m, (parts, s) in enumerate(zip(weighed, modes.eigenvalue, strict=True)):
-        along = np.sum((parts[:, :3] @ slides.T) ** 2, axis=0) if len(slides) else np.zeros(1)
-        slide = np.max(along) > _MOST and abs(s) ** 2 <= bound[m]
+        along = np.sum((parts[:, :3] @ slides.T) ** 2, axis=0)
+        slide = np.max(along, initial=0.0) > _MOST and abs(s) ** 2 <= bound[m]
         kept[m] = not slide and s != 0.0
         if not kept[m]:
             body = bodies[int(np.argmax(np.sum(parts**2, axis=1)))]
-            ways_of = [name for way, name in zip(along.tolist(), gaps, strict=False) if way > _MOST]
+            ways_of = [name for way, name in zip(along.tolist(), gaps, strict=True) if way > _MOST]
             own = [name for name in ways_of if body in joints[name].between]
             free.append(" along ".join([body, *(own or ways_of)[:1]]))
     return Modes(modes.eigenvalue[kept], modes.shape[:, kept]), free

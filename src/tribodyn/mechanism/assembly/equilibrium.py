@@ -218,10 +218,10 @@ class JointLoads:
             total += forces(np.abs(pushes), self.ends[:, couplings], self.n)
         return float(dense.norm(dense.product(self.root, total))) + float(dense.norm(self.wanted))
 
-    def rounding(self, stiffness: FloatArray) -> float:
-        """Return the load over the motions that rounding of the positions causes in stiff parts."""
+    def rounding(self, stiffest: float) -> float:
+        """Return the load over the motions that rounding of the positions causes in the stiffest parts."""
         reach = float(np.max(np.abs(self.motions) / self.units[:, None]))
-        return _ROUNDINGS * float(np.finfo(float).eps * np.max(np.abs(stiffness))) / reach
+        return _ROUNDINGS * float(np.finfo(float).eps) * stiffest / reach
 
     def unbalanced(self) -> int | None:
         """Return the number of a body that loads push along a freedom which nothing holds; None without one.

@@ -24,7 +24,6 @@ from tribodyn.mechanisms.signal_pieces import backward, constant
 
 BROKEN: Final = "a joint has come apart"
 _SAME: Final = 1.0e-12  #: Difference of times over the later one that is rounding.
-_NEVER_ENTERED: Final = 1.0e30  #: Entry velocity against which any speed of approach vanishes [m/s].
 
 
 @dataclass(frozen=True)
@@ -143,14 +142,6 @@ class _Walk:
 def in_reverse(data: MechanismData) -> MechanismData:
     """Return a mechanism whose drives and loads run backward: what was at time t is at −t."""
     return data._replace(signals=backward(data.signals, _of_time(data)))
-
-
-def undamped(data: MechanismData) -> MechanismData:
-    """Return a mechanism whose contact forces do not depend on the speed of approach."""
-    contact = data.contact
-    surfaces = contact.surfaces.copy()
-    surfaces["minimum_entry_velocity"] = _NEVER_ENTERED
-    return data._replace(contact=contact._replace(surfaces=surfaces))
 
 
 def held(data: MechanismData, times: FloatArray) -> MechanismData:

@@ -95,10 +95,11 @@ def _newton(loads: JointLoads, soft: float, floor: float, least: float) -> tuple
     residual, moved = loads.residual(), 0.0
     for steps in range(_MOST_STEPS):
         stiffness, even = loads.stiffness()
+        stiffest = float(np.max(np.abs(stiffness)))
         if loads.over_loads:
             # Without any loads what is left to balance is rounding.
-            loads.largest = max(loads.largest, loads.rounding(stiffness) / _BALANCED)
-        soft = max(soft, floor * float(np.max(np.abs(stiffness))), _LEAST)
+            loads.largest = max(loads.largest, loads.rounding(stiffest) / _BALANCED)
+        soft = max(soft, floor * stiffest, _LEAST)
         for _ in range(_MOST_STEPS):
             step = shortest(stiffness + soft * even, residual)
             far = loads.turned(step)

@@ -23,14 +23,14 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import choice, names, number, quantity, switch
+from tribodyn.cases.fields import names, number, quantity
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.elements import element as base
+from tribodyn.mechanism.elements.flanks import Flanks
 from tribodyn.mechanism.elements.joint_friction import friction_law
-from tribodyn.mechanism.elements.stop import RESTITUTION, flank_law
 
 
-class Screw(base.ElementKeys):
+class Screw(Flanks):
     """A screw: a thread between a screw and its nut, with friction or without."""
 
     TABLE: ClassVar[str] = "screws"
@@ -93,26 +93,6 @@ torque = "0.2 N m"
     stiffness: float | None = quantity(
         None, "axial force over indentation, of a thread with backlash", "", gt=0, example="100 N/um"
     )
-    damping_factor: str = choice(
-        "calibrated",
-        "how damping of a thread with backlash follows from restitution",
-        "assumed",
-        family="tribodyn.contact:DAMPING_FACTORS",
-    )
-    restitution: float = number(
-        RESTITUTION, "coefficient of restitution of a thread with backlash", "manual, elements", gt=0, le=1
-    )
-    ideal: bool = switch(False, "treat the thread as without backlash", "assumed")
-
-    @property
-    def has_play(self) -> bool:
-        """Whether its thread has backlash."""
-        return self.backlash is not None and not self.ideal
-
-    @property
-    def without_play(self) -> Self:
-        """The screw without backlash."""
-        return self.model_copy(update={"backlash": None})
 
     @property
     def without_friction(self) -> Self:
@@ -128,8 +108,7 @@ torque = "0.2 N m"
         law, flanks = None, [thread]
         if self.has_play:
             demand(self.stiffness is not None, "stiffness", "a thread with backlash needs its stiffness")
-            stiffness = self.stiffness or 0.0
-            law = flank_law(self.backlash or 0.0, stiffness, self.damping_factor, self.restitution)
+            law = self.flank_law(self.stiffness or 0.0)
             other = replace(thread, along=-thread.along, about=-thread.about, reported=thread.along)
             flanks.append(other)
         mu = self.friction_coefficient

@@ -58,22 +58,6 @@ def damping_of(factor: str, restitution: float) -> float:
     return float(DAMPING_FACTORS[factor](np.array(restitution)))
 
 
-def flank_law(backlash: float, stiffness: float, damping_factor: str, restitution: float) -> ForceLaw:
-    """Return the law of one flank of teeth or of a thread, which touch after half the backlash."""
-    damping = damping_of(damping_factor, restitution)
-    return ForceLaw(
-        one_sided,
-        {
-            "at": 0.5 * backlash,
-            "side": 1.0,
-            "exponent": 1.0,
-            "scale": stiffness,
-            "damping": damping,
-            "least_rate": LEAST_RATE,
-        },
-    )
-
-
 class Stop(OfJointKeys):
     """A limit stop of a joint: an elastic contact of one side at an angle or a position."""
 

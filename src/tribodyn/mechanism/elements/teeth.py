@@ -15,18 +15,18 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import choice, number, quantity, switch
+from tribodyn.cases.fields import number, quantity
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanism.elements import element as base
+from tribodyn.mechanism.elements.flanks import Flanks
 from tribodyn.mechanism.elements.joint_friction import friction_law
-from tribodyn.mechanism.elements.stop import RESTITUTION, flank_law
 
+#: Forces that push both wheels apart, over the tooth force, shape (3,) each.
 Pushes = tuple[FloatArray, FloatArray]
-"""Forces that push both wheels apart, over the tooth force, shape (3,) each."""
 
 
-class Teeth(base.ElementKeys):
+class Teeth(Flanks):
     """Base of the keys of elements with teeth, whose first leg is that of the wheel which drives forward."""
 
     backlash: float | None = quantity(
@@ -35,17 +35,6 @@ class Teeth(base.ElementKeys):
     mesh_stiffness: float | None = quantity(
         None, "tooth force over indentation, of teeth with backlash", "", gt=0, example="100 N/um"
     )
-    damping_factor: str = choice(
-        "calibrated",
-        "how damping of teeth with backlash follows from restitution",
-        "assumed",
-        family="tribodyn.contact:DAMPING_FACTORS",
-    )
-    restitution: float = number(
-        RESTITUTION, "coefficient of restitution of teeth with backlash", "manual, elements", gt=0, le=1
-    )
-    ideal: bool = switch(False, "treat the teeth as without backlash", "assumed")
-
     efficiency: float | None = number(
         None, "power out over power in where the first wheel drives; without it no loss", "", gt=0, lt=1
     )
@@ -57,16 +46,6 @@ class Teeth(base.ElementKeys):
         le=1,
     )
     slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
-
-    @property
-    def has_play(self) -> bool:
-        """Whether its teeth have backlash."""
-        return self.backlash is not None and not self.ideal
-
-    @property
-    def without_play(self) -> Self:
-        """The teeth without backlash."""
-        return self.model_copy(update={"backlash": None})
 
     @property
     def without_friction(self) -> Self:
@@ -87,9 +66,7 @@ class Teeth(base.ElementKeys):
             demand(
                 self.mesh_stiffness is not None, "mesh_stiffness", "teeth with backlash need their stiffness"
             )
-            law = flank_law(
-                self.backlash or 0.0, self.mesh_stiffness or 0.0, self.damping_factor, self.restitution
-            )
+            law = self.flank_law(self.mesh_stiffness or 0.0)
             flanks = [_flank(legs, side, pushes) for side in (1.0, -1.0)]
             yield from (base.Equation(flank, law) for flank in flanks)
         else:

@@ -107,11 +107,17 @@ def with_nodes(values: dict[str, Value]) -> dict[str, Value]:
     InputError
         Something is beyond the ends of the beam that it names, or a body has keys of a rigid one.
     """
-    found, (before, after) = values, _ELASTIC
-    for path in values:
-        if path.startswith(before) and path.endswith(after):
-            found = _with_nodes_of(found, path[len(before) : -len(after)])
+    found = values
+    for name in elastic_keys(values).values():
+        found = _with_nodes_of(found, name)
     return found
+
+
+def elastic_keys(values: Mapping[str, object]) -> dict[str, str]:
+    """Return the names of elastic bodies by the paths of the keys that let them bend."""
+    before, after = _ELASTIC
+    paths = (path for path in values if path.startswith(before) and path.endswith(after))
+    return {path: path[len(before) : -len(after)] for path in paths}
 
 
 def _with_nodes_of(values: Mapping[str, Value], name: str) -> dict[str, Value]:

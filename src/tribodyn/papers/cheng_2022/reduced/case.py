@@ -13,7 +13,8 @@ from tribodyn.cases.groups import Solver, check_output_interval
 from tribodyn.cases.joint_keys import PlainJoint, Wear
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import Doors
-from tribodyn.cases.rough import BushingCase
+from tribodyn.cases.messages import Remarks
+from tribodyn.cases.rough import BushingCase, of_loss
 from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature, cold_geometry, time_followed, times_of
 from tribodyn.core.errors import Faults
 from tribodyn.mechanisms.bushing import grid_of
@@ -271,6 +272,10 @@ class VsvCase(BushingCase):
         yield from followed(loads, self.duration, cycle=self.period, follows=along)
         yield from followed(warm, time_followed(self))
 
+    def remarks(self) -> Remarks:
+        """Return remarks on surfaces and tables, and on elastic bodies of unknown loss."""
+        return super().remarks() + of_loss(self, () if self.joint.bulk == "none" else ("",))
+
     def idle(self) -> tuple[str, ...]:
         """Return the keys of the sinusoid that a table takes the place of."""
         if self.drive.table is None:
@@ -315,11 +320,8 @@ class VsvCase(BushingCase):
         return (*super().checks(), *own)
 
     def _check_run(self) -> None:
-        demand(
-            (self.run.cycles is None) != (self.run.duration is None),
-            "run.duration",
-            "give either run.cycles or run.duration",
-        )
+        words = "give either run.cycles or run.duration"
+        demand((self.run.cycles is None) != (self.run.duration is None), "run.duration", words)
         check_output_interval(self.run.output_interval, self.duration)
 
     def _check_campaign(self) -> None:
