@@ -93,16 +93,10 @@ def followed(
 ) -> Iterator[FollowedTable]:
     """Yield the tables that parts of a case follow, two for a map.
 
-    Parameters
-    ----------
-    tables
-        Members of :mod:`tribodyn.cases.signals`, with and without values, by their paths.
-    duration
-        Of the run [s].
-    cycle
-        Time after which a table over time of that length repeats [s]; None where none does.
-    follows
-        Names of the coordinates that tables over angles or positions follow, by the paths of the tables.
+    ``tables``: members of :mod:`tribodyn.cases.signals`, with and without values, by their paths;
+    ``duration``: of the run [s]; ``cycle``: time after which a table over time of that length repeats [s];
+    None where none does; ``follows``: names of the coordinates that tables over angles or positions follow,
+    by the paths of the tables.
     """
     names = follows or {}
     for path, table in tables.items():

@@ -317,16 +317,8 @@ def build(
 ) -> AnyCase:
     """Return the validated case that `entries` describe.
 
-    Parameters
-    ----------
-    model
-        The kind of case.
-    entries
-        What was given, by dotted path.
-    source
-        Named in messages about values that were not given.
-    found
-        What is known to be wrong; raised with the rest.
+    ``model``: the kind of case; ``entries``: what was given, by dotted path; ``source``: named in messages
+    about values that were not given; ``found``: what is known to be wrong; raised with the rest.
     """
     declared = keys_of(model)
     keys = keys_at(model, entries)
@@ -427,21 +419,9 @@ def with_entries(
 ) -> AnyCase:
     """Return a copy of `case` with some values by dotted path, in tables that may be new.
 
-    Parameters
-    ----------
-    case
-        The case.
-    values
-        Values by dotted path, written as in a case file.
-    source
-        Where they come from, for messages.
-    without
-        Dotted paths of tables that are left out.
-
-    Raises
-    ------
-    InputError
-        The values are invalid, or what remains of the case is.
+    ``values``: values by dotted path, written as in a case file; ``source``: where they come from, for
+    messages; ``without``: dotted paths of tables that are left out. Raises InputError if the values are
+    invalid, or what remains of the case is.
     """
     new = {path: Entry(value, source, text=True) for path, value in values.items()}
     return _rebuilt(case, new, source, without=without)

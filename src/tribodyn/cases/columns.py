@@ -52,12 +52,7 @@ class TableProblem(ValueError):
 def with_tables_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
     """Return the given values with the numbers of CSV files in the place of their names.
 
-    Parameters
-    ----------
-    entries
-        What was given, by dotted path.
-    keys
-        The keys of the case.
+    ``entries``: what was given, by dotted path; ``keys``: the keys of the case.
     """
     read = dict(entries)
     for path, entry in entries.items():
@@ -188,17 +183,8 @@ def _kind(name: str, other: str) -> str:
 def check_map(places: Mapping[str, Sequence[float]], values: Sequence[float]) -> None:
     """Refuse a map that no surface goes through.
 
-    Parameters
-    ----------
-    places
-        What it stands over, by two of :data:`KNOTS`.
-    values
-        Row by row of the first.
-
-    Raises
-    ------
-    TableProblem
-        The message says what is wrong.
+    ``places``: what it stands over, by two of :data:`KNOTS`; ``values``: row by row of the first. Raises
+    TableProblem, which says why, if there is none.
     """
     sizes = [len(of) for of in places.values()]
     if len(values) != sizes[0] * sizes[1]:
@@ -214,10 +200,7 @@ def check_map(places: Mapping[str, Sequence[float]], values: Sequence[float]) ->
 def check(knots: Sequence[float], values: Sequence[float]) -> None:
     """Refuse a table that no curve goes through: its knots grow, and a kink has one value.
 
-    Raises
-    ------
-    TableProblem
-        The message names the row, counted from 1 without the header.
+    Raises TableProblem, which names the row, counted from 1 without the header, if there is none.
     """
     if len(knots) != len(values):
         raise TableProblem(f"there are {len(values)} values for {len(knots)} places")

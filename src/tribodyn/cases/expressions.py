@@ -169,17 +169,8 @@ def names_in(text: str) -> set[str]:
 def evaluate(text: str, scope: Mapping[str, Dimensioned]) -> Dimensioned:
     """Return the value of an expression.
 
-    Parameters
-    ----------
-    text
-        As a user wrote it.
-    scope
-        Parameters by their names.
-
-    Raises
-    ------
-    ExpressionProblem
-        It is too long or too deep, no expression, or units and names do not allow it.
+    ``text``: as a user wrote it; ``scope``: parameters by their names. Raises ExpressionProblem if it is too
+    long or too deep, no expression, or units and names do not allow it.
 
     Examples
     --------

@@ -82,18 +82,9 @@ def vector(
 ) -> Any:
     """Declare a key that takes three numbers: with a unit each, or bare where `unit` is empty.
 
-    Parameters
-    ----------
-    default
-        Three numbers before the one unit, such as ``"0, 0, 0 m"``.
-    description, source
-        As for the other kinds.
-    unit
-        In which they are shown.
-    example
-        As it stands in a file, such as ``["0 mm", "0 mm", "170 mm"]``.
-    required
-        Whether it must be given.
+    ``default``: three numbers before the one unit, such as ``"0, 0, 0 m"``; ``description``, ``source``: as
+    for the other kinds; ``unit``: in which they are shown; ``example``: as it stands in a file, such as ``["0
+    mm", "0 mm", "170 mm"]``; ``required``: whether it must be given.
     """
     held = None if default is None else _numbers(default, unit)
     return _field(
@@ -128,16 +119,10 @@ def choice(
 ) -> Any:
     """Declare a key that takes a name.
 
-    Parameters
-    ----------
-    default, description, source
-        As for the other kinds.
-    family
-        Where the allowed names are listed, as ``module:ATTRIBUTE`` (a mapping); ``module:ATTRIBUTE+none``
-        also allows the name ``none``. It is imported only when a value is checked. Empty when the
-        annotation is a ``Literal``, which lists them itself.
-    required
-        Whether it must be given.
+    ``default``, ``description``, ``source``: as for the other kinds. ``family``: where the allowed names are
+    listed, as ``module:ATTRIBUTE`` (a mapping); ``module:ATTRIBUTE+none`` also allows the name ``none``. It
+    is imported only when a value is checked. Empty when the annotation is a ``Literal``, which lists them
+    itself. ``required``: whether it must be given.
     """
     return _field(
         default, description, source, kind="choice", required=required, family=family, example=example
@@ -193,11 +178,6 @@ def _field(
 def tables(description: str, default: Callable[[], dict[str, Any]] = dict) -> Any:
     """Declare tables that a user names, each of the group that the annotation ``Mapping[str, ...]`` says.
 
-    Parameters
-    ----------
-    description
-        What they are.
-    default
-        Returns those that there are by default.
+    ``description``: what they are; ``default``: returns those that there are by default.
     """
     return Field(default_factory=default, description=description)

@@ -119,12 +119,8 @@ class Surfaces(Group):
     def run_in(self, depth: float, final: float | None) -> Self:
         """Return the surfaces after a mean depth is worn off the bushing.
 
-        Parameters
-        ----------
-        depth
-            The depth [m].
-        final
-            Roughness that the bushing runs in to [m]; None for that of the trunnion.
+        ``depth``: the depth [m]; ``final``: roughness that the bushing runs in to [m]; None for that of the
+        trunnion.
         """
         from tribodyn.wear import worn_roughness
 

@@ -95,14 +95,7 @@ class FormKeys(Group):
     def check(self, contact: str, length: float, joint: str = "joint.") -> None:
         """Refuse a form that a joint cannot have.
 
-        Parameters
-        ----------
-        contact
-            Its contact.
-        length
-            Of the bushing [m].
-        joint
-            What keys of the joint begin with.
+        ``length``: of the bushing [m]; ``joint``: what keys of the joint begin with.
         """
         demand(
             (self.chamfer_length is None) == (self.chamfer_depth is None),

@@ -61,21 +61,9 @@ def read_case(
 ) -> Case:
     """Return a case by built-in name or from a TOML file.
 
-    Parameters
-    ----------
-    case
-        One of ``built_in``, or the path of a file.
-    kinds
-        What a file may hold.
-    built_in
-        What can be had by name.
-    changes
-        What takes the place of what the file says, before that is checked.
-
-    Raises
-    ------
-    InputError
-        There is no such case or file, or something in the file is wrong.
+    ``case``: one of ``built_in``, or the path of a file; ``kinds``: what a file may hold; ``built_in``: what
+    can be had by name; ``changes``: what takes the place of what the file says, before that is checked.
+    Raises InputError if there is no such case or file, or something in the file is wrong.
     """
     if isinstance(case, str) and not case.endswith(_FILE) and case in built_in:
         model, given = built_in[case].model, _given(case, built_in[case])
@@ -95,20 +83,9 @@ def parse(
 ) -> Case:
     """Return the case that a TOML text describes.
 
-    Parameters
-    ----------
-    text
-        Content of a case file.
-    source
-        Where it comes from, for messages.
-    kinds
-        What the text may hold.
-    folder
-        Where the names of files in it begin; None is the current directory.
-    built_in
-        Cases that it may begin with, by name.
-    changes
-        As for :func:`read_case`.
+    ``text``: content of a case file; ``source``: where it comes from, for messages; ``kinds``: what the text
+    may hold; ``folder``: where the names of files in it begin; None is the current directory; ``built_in``:
+    cases that it may begin with, by name; ``changes``: as for :func:`read_case`.
     """
     model, given = _of_text(text, source, folder, Known(kinds, built_in))
     return build(model, _changed(model, given, changes), source)

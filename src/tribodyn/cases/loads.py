@@ -177,19 +177,9 @@ _Any = TypeVar("_Any", bound=Case)
 def with_functions(case: _Any, drive: OwnFunction | None, loads: Mapping[str, OwnFunction] | None) -> _Any:
     """Return a case with tables of functions for its drive and loads.
 
-    Parameters
-    ----------
-    case
-        The case.
-    drive
-        Crank angle [rad], or speed of a shaft [rad/s], as a function of ``t`` [s].
-    loads
-        Forces [N] and moments [N m] by name, as functions of ``t`` or an angle, or of both.
-
-    Raises
-    ------
-    InputError
-        A function takes or returns something else, or is not smooth.
+    ``drive``: crank angle [rad], or speed of a shaft [rad/s], as a function of ``t`` [s]; ``loads``: forces
+    [N] and moments [N m] by name, as functions of ``t`` or an angle, or of both. Raises InputError if a
+    function takes or returns something else, or is not smooth.
     """
     if drive is None and not loads:
         return case

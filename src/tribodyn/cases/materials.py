@@ -102,14 +102,8 @@ def wear_scatter(given: object, material: str | None, at: float) -> tuple[float,
 
     It contains the scatter of equal parts and, for the middle of a range of published rates, that range.
 
-    Parameters
-    ----------
-    given
-        Specific wear rate as the case gives it, None if nobody wrote it down.
-    material
-        Material of the bushing, None without a name.
-    at
-        Specific wear rate that the case holds [m²/N].
+    ``given``: specific wear rate as the case gives it, None if nobody wrote it down; ``material``: material
+    of the bushing, None without a name; ``at``: specific wear rate that the case holds [m²/N].
     """
     known = MATERIALS[material or _UNNAMED].properties
     scatter, rate = (
@@ -171,14 +165,8 @@ MATERIALS: Final[Mapping[str, Material]] = _library()  #: Every material by its 
 def resolve(given: Mapping[str, Value], keys: Mapping[str, Key], prefix: str = "") -> dict[str, Value]:
     """Return the values that named materials give to a set of surfaces.
 
-    Parameters
-    ----------
-    given
-        What was given, by dotted path.
-    keys
-        Those of the case: of what it has none, nothing is returned.
-    prefix
-        What stands before the paths of this set of surfaces.
+    ``given``: what was given, by dotted path; ``keys``: those of the case: of what it has none, nothing is
+    returned; ``prefix``: what stands before the paths of this set of surfaces.
     """
     found: dict[str, Value] = {}
     for surface in SURFACES:

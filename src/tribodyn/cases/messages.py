@@ -28,18 +28,8 @@ def unknown(
 ) -> InputError:
     """Return the message that a key does not exist, with a suggestion.
 
-    Parameters
-    ----------
-    path
-        What was given.
-    keys
-        All that there are.
-    declared
-        Those of the kind of case, before users name tables.
-    source
-        Where it was given.
-    number
-        How many faults there were before.
+    ``path``: what was given; ``keys``: all that there are; ``declared``: those of the kind of case, before
+    users name tables; ``source``: where it was given; ``number``: how many faults there were before.
     """
     searched = number < MOST_HINTS and len(path) <= _LONGEST
     reason = _unknown(path, keys, declared) if searched else f"unknown key; {_ALL_KEYS}"
@@ -156,14 +146,8 @@ def _inside(table: str, keys: Mapping[str, Key]) -> dict[str, str]:
 def _by_words(name: str, names: Iterable[str], of: str) -> list[str]:
     """Return names that mean the same, or else that have all words of this one, or only words of it.
 
-    Parameters
-    ----------
-    name
-        What was given.
-    names
-        What is possible.
-    of
-        Kind of the table: among several the names with its word come first.
+    ``name``: what was given; ``names``: what is possible; ``of``: kind of the table: among several the names
+    with its word come first.
     """
     same = [word for word in (name.casefold(), *meanings(name)) if word in names]
     if same:

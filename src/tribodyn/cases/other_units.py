@@ -24,10 +24,7 @@ class UnknownUnit(ValueError):
 def looked_up(unit: str) -> tuple[Decimal, Decimal, str]:
     """Return size and zero of a unit in SI base units, and these.
 
-    Raises
-    ------
-    UnknownUnit
-        There is no such unit, or it counts from a zero of its own.
+    Raises UnknownUnit if there is no such unit, or it counts from a zero of its own.
     """
     try:
         one, nothing = (_REGISTRY.Quantity(Decimal(n), unit).to_base_units() for n in (1, 0))

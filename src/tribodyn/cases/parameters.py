@@ -58,12 +58,7 @@ def keys_with_units(keys: Mapping[str, Key], units: Mapping[str, str]) -> dict[s
 def scope_of(entries: Mapping[str, Entry], faults: Faults) -> Scope:
     """Return the parameters that entries define; each may be an expression of others.
 
-    Parameters
-    ----------
-    entries
-        What was given, by dotted path.
-    faults
-        What is wrong is added to them.
+    ``entries``: what was given, by dotted path; ``faults``: what is wrong is added to them.
     """
     given = {path.split(".")[1]: entry for path, entry in entries.items() if path.startswith(f"{TABLE}.")}
     quantities: dict[str, Dimensioned] = {}
@@ -189,10 +184,7 @@ def read_all(
 def read(key: Key, entry: Entry, scope: Scope) -> tuple[Value, bool]:
     """Return the value of a key, and whether it is computed from an expression.
 
-    Raises
-    ------
-    InputError
-        It can be neither; the message names the key and the source.
+    Raises InputError if it can be neither; the message names the key and the source.
     """
     if key.path.startswith(f"{TABLE}."):
         name = key.path.split(".")[1]

@@ -100,14 +100,8 @@ _NOTHING: Final[Mapping[str, Sequence[str]]] = MappingProxyType({})
 def of_surfaces(case: Case, prefix: str = "", beside: Mapping[str, Sequence[str]] = _NOTHING) -> Remarks:
     """Return remarks on a set of surfaces.
 
-    Parameters
-    ----------
-    case
-        Any case that has one.
-    prefix
-        What stands before the paths of its keys.
-    beside
-        Keys of joints between these surfaces that hold a property of the bushing too, by its name.
+    ``case``: any case that has one; ``prefix``: what stands before the paths of its keys; ``beside``: keys of
+    joints between these surfaces that hold a property of the bushing too, by its name.
     """
     keys = keys_in(case)
     used = [one for surface in SURFACES for one in _used(case, keys, surface, prefix, beside)]

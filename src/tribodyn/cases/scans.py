@@ -90,12 +90,8 @@ def equivalent(*surfaces: MeasuredSurface) -> Equivalent:
 def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
     """Return the given values with the numbers of scans in the place of their files.
 
-    Parameters
-    ----------
-    entries
-        What was given, by dotted path.
-    keys
-        The keys of the case; sets of surfaces may stand in several tables.
+    ``entries``: what was given, by dotted path; ``keys``: the keys of the case; sets of surfaces may stand in
+    several tables.
     """
     read = dict(entries)
     for table in tables_of_surfaces(keys):
@@ -148,14 +144,8 @@ def entries_kept(
 ) -> dict[str, Entry]:
     """Return the entries of a case to which new ones are added.
 
-    Parameters
-    ----------
-    given
-        Entries of the case, with the numbers of its scans.
-    scans
-        Entries that named these scans.
-    new
-        What changes. Another treatment brings the scans back; other numbers leave their origin behind.
+    ``given``: entries of the case, with the numbers of its scans. ``scans``: entries that named these scans.
+    ``new``: what changes. Another treatment brings the scans back; other numbers leave their origin behind.
     """
     again = bool(scan_entries(new)) and bool(scans)
     dropped = (*FOLLOWING, ORIGIN) if again else (ORIGIN,) if any(path in new for path in FOLLOWING) else ()
@@ -208,12 +198,7 @@ LARGEST: Final = 5_000_000
 def with_meshes_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
     """Return the given values with corners of triangles in the place of files' names.
 
-    Parameters
-    ----------
-    entries
-        What was given, by dotted path.
-    keys
-        The keys of the case.
+    ``entries``: what was given, by dotted path; ``keys``: the keys of the case.
     """
     read = dict(entries)
     for path, entry in entries.items():

@@ -50,12 +50,8 @@ class Tables(dict[str, Any]):
 def expanded(declared: Mapping[str, Key], paths: Iterable[str]) -> dict[str, Key]:
     """Return the keys that there are, given the names of tables in some dotted paths.
 
-    Parameters
-    ----------
-    declared
-        From :func:`tribodyn.cases.keys.keys_of`.
-    paths
-        Of keys and tables; names that none can have are passed over.
+    ``declared``: from :func:`tribodyn.cases.keys.keys_of`; ``paths``: of keys and tables; names that none can
+    have are passed over.
     """
     found: dict[str, Key] = {}
     for before, group in groupby(declared.values(), key=lambda key: _before_name(key.path)):
@@ -135,14 +131,7 @@ def plain_entries(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict
 def of_components(path: str, text: str, key: Key, value: Sequence[float]) -> list[str]:
     """Return a vector as a user writes it, of which one component is replaced.
 
-    Parameters
-    ----------
-    path
-        Of the component.
-    text
-        What it is to be.
-    key, value
-        The vector.
+    ``path``: of the component; ``text``: what it is to be.
     """
     place = AXES.index(path[-1])
     numbers = [from_si(number, key.unit) if key.unit else repr(number) for number in value]

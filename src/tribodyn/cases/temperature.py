@@ -145,19 +145,8 @@ class Temperatures(Group):
     def hot(self, cold: Cylinder, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()) -> Cylinder:
         """Return the dimensions of a joint at these temperatures, those where a run begins.
 
-        Parameters
-        ----------
-        cold
-            Those at assembly.
-        surfaces, liner
-            Of the joint.
-        names
-            Of keys that are refused.
-
-        Raises
-        ------
-        InputError
-            A thermal expansion is not given, or no clearance is left.
+        ``cold``: those at assembly; ``surfaces``, ``liner``: of the joint; ``names``: of keys that are
+        refused. Raises InputError if a thermal expansion is not given, or no clearance is left.
         """
         from tribodyn.joints.expansion import expanded
 
@@ -265,10 +254,7 @@ class ChangingTemperature(Temperature):
 
         Arguments as for :meth:`hot`.
 
-        Raises
-        ------
-        InputError
-            A table does not begin with the run, or a thermal expansion is not given.
+        Raises InputError if a table does not begin with the run, or a thermal expansion is not given.
         """
         if not self.tables:
             return None
@@ -287,12 +273,8 @@ class ChangingTemperature(Temperature):
     ) -> Signal | None:
         """Return the growth of the play along the axis since the start, over time [m, s]; None if constant.
 
-        Parameters
-        ----------
-        length, play
-            Of the bore, and what the shaft has more between its flanges, at assembly [m].
-        surfaces, names
-            As for :meth:`hot`.
+        ``length``, ``play``: of the bore, and what the shaft has more between its flanges, at assembly [m];
+        ``surfaces``, ``names``: as for :meth:`hot`.
         """
         bore = "bushing" if self.fit == "free" else "casing"
         return self._change({"trunnion": length + play, bore: -length}, surfaces, names)

@@ -116,18 +116,10 @@ def unit_of(text: str) -> str:
 def to_si(text: str, like: str) -> float:
     """Convert a quantity to its SI value.
 
-    Parameters
-    ----------
-    text
-        Number and unit, such as ``"20 um"``; a viscosity also as a kinematic one with the density,
-        ``"32 cSt at 870 kg/m^3"``.
-    like
-        A unit of the wanted dimension; angles and plain ratios are distinguished.
-
-    Raises
-    ------
-    UnitProblem
-        The text is no quantity, has no unit, or has one of another dimension.
+    ``text``: number and unit, such as ``"20 um"``; a viscosity also as a kinematic one with the density,
+    ``"32 cSt at 870 kg/m^3"``; ``like``: a unit of the wanted dimension; angles and plain ratios are
+    distinguished. Raises UnitProblem if the text is no quantity, has no unit, or has one of another
+    dimension.
     """
     kinematic, at, density = text.partition(" at ")
     if at and dimension(like) == "viscosity":
@@ -163,10 +155,7 @@ def to_si_base(text: str) -> float:
 def rms_roughness(text: str) -> float:
     """Convert a root mean square roughness to metres; ``Ra 0.8 um`` and the like are understood, too.
 
-    Parameters
-    ----------
-    text
-        A length, after the name of one of :data:`AMPLITUDES` if it is another measure.
+    ``text``: a length, after the name of one of :data:`AMPLITUDES` if it is another measure.
     """
     name, _, length = text.strip().partition(" ")
     factor = AMPLITUDES.get(name.rstrip("="))
@@ -186,13 +175,8 @@ def _meant(scale: _Scale, number: Decimal, unit: str, like: str) -> str:
 def from_si(value: float, unit: str) -> str:
     """Write an SI value as text that :func:`to_si` reads back to the same float.
 
-    Parameters
-    ----------
-    value
-        Finite SI value.
-    unit
-        Preferred unit. It is used when some number of at most 17 digits in it reads back exactly,
-        otherwise the value stands in SI units.
+    ``value``: finite SI value. ``unit``: preferred unit. It is used when some number of at most 17 digits in
+    it reads back exactly, otherwise the value stands in SI units.
     """
     scale = _scale(unit)
     in_unit = _ARITHMETIC.divide(Decimal(value) - scale.zero, scale.factor)
@@ -230,14 +214,8 @@ def _is_number(text: str) -> bool:
 def likely_unit(number: str, example: str, unit: str) -> str:
     """Return the unit in which a number was probably meant that was given without one.
 
-    Parameters
-    ----------
-    number
-        As it was given.
-    example
-        A likely quantity.
-    unit
-        In which such a quantity is shown; returned unless the number is nearer to the example in SI units.
+    ``number``: as it was given; ``unit``: in which such a quantity is shown; returned unless the number is
+    nearer to the example in SI units.
     """
     try:
         likely, first, second = (
@@ -359,13 +337,8 @@ AXES: Final = "xyz"  #: Components of a vector, as dotted paths name them: ``poi
 def elements(value: object, unit: str) -> list[object] | None:
     """Return the elements of what a user wrote: a list, or one text with commas; None for other things.
 
-    Parameters
-    ----------
-    value
-        As parsed from TOML, or given on the command line or from Python.
-    unit
-        Of the elements, empty for bare numbers and names. In a text the last one may stand for all, as in
-        ``"0, 0, 170 mm"``.
+    ``value``: as parsed from TOML, or given on the command line or from Python. ``unit``: of the elements,
+    empty for bare numbers and names. In a text the last one may stand for all, as in ``"0, 0, 170 mm"``.
     """
     if isinstance(value, list | tuple):
         return list(value)

@@ -182,14 +182,7 @@ def comment(key: Key, *, own: bool = False) -> str:
 def to_html(case: BaseModel, title: str, own: Collection[str]) -> str:
     """Return a case as HTML.
 
-    Parameters
-    ----------
-    case
-        The case.
-    title
-        Its heading.
-    own
-        What a user gave, by dotted path.
+    ``own``: what a user gave, by dotted path.
     """
     keys = [key for key in keys_in(case).values() if value_at(case, key.path) is not None]
     given = [key for key in keys if key.path in own]

@@ -208,14 +208,8 @@ class Bar:
 def progress(total: float, console: Console, measure: Measure = SIMULATED) -> Progress:
     """Return the right display of progress.
 
-    Parameters
-    ----------
-    total
-        How far the work goes: by default the simulated time at the end [s].
-    console
-        When quiet, nothing is shown.
-    measure
-        What is counted.
+    ``total``: how far the work goes: by default the simulated time at the end [s]; ``console``: when quiet,
+    nothing is shown; ``measure``: what is counted.
     """
     if console.quiet or not is_terminal(sys.stderr):
         return ProgressLines(total, console, measure)

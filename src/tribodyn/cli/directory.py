@@ -23,15 +23,8 @@ REPORT: Final = "report.html"
 class OutputDirectory:
     """A directory that can be written to.
 
-    Parameters
-    ----------
-    path
-        Where results go; made with its parents if missing.
-
-    Raises
-    ------
-    InputError
-        Results cannot be written there. Nothing is left behind.
+    ``path``: where results go; made with its parents if missing. Raises InputError if results cannot be
+    written there. Nothing is left behind.
     """
 
     def __init__(self, path: str) -> None:
@@ -78,10 +71,7 @@ class OutputDirectory:
 
         When the block raises, what was made for it and is still empty goes.
 
-        Raises
-        ------
-        InputError
-            Another process has reserved it.
+        Raises InputError if another process has reserved it.
         """
         from tribodyn.results.atomic import remove_stale_parts
 

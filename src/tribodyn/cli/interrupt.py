@@ -36,10 +36,7 @@ class Interruption:
 
     It listens from the first time it is asked: until then there is nothing to save.
 
-    Parameters
-    ----------
-    message
-        Shown to the user when a signal arrives.
+    ``message``: shown to the user when a signal arrives.
     """
 
     def __init__(self, message: str = _STOPPING) -> None:

@@ -165,15 +165,8 @@ def _parser(names: Iterable[str]) -> _Parser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command.
 
-    Parameters
-    ----------
-    arguments
-        What follows ``tribodyn``; by default that of this process.
-
-    Returns
-    -------
-    int
-        Exit status: 0 done, 1 failed, 2 bad input.
+    ``arguments``: what follows ``tribodyn``; by default that of this process. Returns exit status: 0 done, 1
+    failed, 2 bad input.
     """
     with signals_heard():
         forgive_encodings()

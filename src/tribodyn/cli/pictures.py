@@ -82,12 +82,7 @@ def _alone(work: Callable[[], object]) -> None:
 def draw_points(directory: Path, note: Callable[[str], None]) -> None:
     """Write the report of every point of a sweep that has its whole result, without figures as files.
 
-    Parameters
-    ----------
-    directory
-        Of the sweep.
-    note
-        Prints a line.
+    ``directory``: of the sweep; ``note``: prints a line.
     """
     from tribodyn import report
     from tribodyn.mechanisms.results import read

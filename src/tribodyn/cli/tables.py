@@ -22,10 +22,7 @@ _SHOWN_IN_FULL: Final = (1e4, 1e9)
 def in_words(summary: Mapping[str, object]) -> Iterator[str]:
     """Give one line for each key result, aligned, with its unit; grey where they are doubtful.
 
-    Parameters
-    ----------
-    summary
-        Content of ``summary.json``.
+    ``summary``: content of ``summary.json``.
     """
     from tribodyn.results.summary import caution
 
@@ -125,12 +122,8 @@ LEFT_OUT: Final = ("Trust", "Effort")  #: Groups of key results that say nothing
 def sweep_in_words(record: Mapping[str, Any], shown: Sequence[str] = ()) -> Iterator[str]:
     """Give the lines of a table.
 
-    Parameters
-    ----------
-    record
-        Content of ``sweep.json``.
-    shown
-        Names of the numbers to show; without them all of the machine that vary, as many as there is room for.
+    ``record``: content of ``sweep.json``; ``shown``: names of the numbers to show; without them all of the
+    machine that vary, as many as there is room for.
     """
     given = shown or _varying(record["points"])
     if record["statistics"]:

@@ -54,12 +54,8 @@ class AsperityLaw(ContactLaw):
     A law of this kind gives the ``regimes`` of its pressure [Pa] and the ``area_regimes`` of its real
     area fraction [1], both for asperity heights of the spread of :attr:`summits`.
 
-    Parameters
-    ----------
-    pair, damping_factor, restitution, design_pressure
-        See :class:`ContactLaw`.
-    separation_from
-        One of :data:`SEPARATIONS`.
+    ``pair``, ``damping_factor``, ``restitution``, ``design_pressure``: see :class:`ContactLaw`;
+    ``separation_from``: one of :data:`SEPARATIONS`.
     """
 
     _: KW_ONLY

@@ -41,18 +41,9 @@ def bounce(
 ) -> Bounce:
     """Throw a plate against the other surface.
 
-    Parameters
-    ----------
-    table
-        The tabulated law.
-    onset
-        Separation h* at which contact begins [1].
-    design_pressure
-        Pressure that the impact would reach without damping [Pa].
-    scale
-        Factor on the damping.
-    clip
-        Whether the total pressure is kept from becoming tensile.
+    ``onset``: separation h* at which contact begins [1]; ``design_pressure``: pressure that the impact would
+    reach without damping [Pa]; ``scale``: factor on the damping; ``clip``: whether the total pressure is kept
+    from becoming tensile.
     """
     from scipy.integrate import solve_ivp
 
@@ -106,12 +97,8 @@ def calibrating_scale(
 ) -> float:
     """Return the factor on the damping with which the design impact returns ``restitution`` [1].
 
-    Parameters
-    ----------
-    table, onset, design_pressure
-        As for :func:`bounce`.
-    restitution
-        What is wanted, 0 < e ≤ 1.
+    ``table``, ``onset``, ``design_pressure``: as for :func:`bounce`; ``restitution``: what is wanted, 0 < e ≤
+    1.
     """
     from scipy.optimize import brentq
 

@@ -58,12 +58,8 @@ class Bulk:
     def of_arc(self, gap: float, clearance: float, radius: float) -> float:
         """Return the compliance of an untilted shaft in its bore [m/Pa].
 
-        Parameters
-        ----------
-        gap
-            Least gap between the undeformed surfaces [m].
-        clearance, radius
-            Radial clearance and radius of the bore [m].
+        ``gap``: least gap between the undeformed surfaces [m]; ``clearance``, ``radius``: radial clearance
+        and radius of the bore [m].
         """
         overlap = 0.5 * (math.hypot(gap, 2.0 * ROUNDING * self.roughness) - gap)
         y = min(overlap / (clearance + overlap), WIDEST)

@@ -36,14 +36,8 @@ def flash_temperature(
     The heat goes into both bodies as their largest temperatures are the same. Valid where spots are far apart
     and each lasts longer than heat takes to spread in it, a²/κ: for shorter ones this is an upper bound.
 
-    Parameters
-    ----------
-    flux
-        Heat of friction over the area of the spot [W/m²].
-    radius, speed
-        Of the spot [m], and of sliding [m/s].
-    standing, passing
-        The body that the spot belongs to, and the one it moves over.
+    ``flux``: heat of friction over the area of the spot [W/m²]; ``radius``, ``speed``: of the spot [m], and
+    of sliding [m/s]; ``standing``, ``passing``: the body that the spot belongs to, and the one it moves over.
     """
     into = 1.0 / resistance(standing, radius, 0.0) + 1.0 / resistance(passing, radius, speed)
     return flux / into

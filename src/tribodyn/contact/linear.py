@@ -23,12 +23,8 @@ CORNER: Final = 0.1  #: w, in units of σ; the table of the law has 13 nodes on 
 class LinearContact(ContactLaw):
     """A bed of equal springs.
 
-    Parameters
-    ----------
-    pair, damping_factor, restitution, design_pressure
-        See :class:`ContactLaw`.
-    penalty_stiffness
-        Pressure per penetration κ [Pa/m].
+    ``pair``, ``damping_factor``, ``restitution``, ``design_pressure``: see :class:`ContactLaw`;
+    ``penalty_stiffness``: pressure per penetration κ [Pa/m].
     """
 
     name: ClassVar[str] = "linear"

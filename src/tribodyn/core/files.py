@@ -21,23 +21,9 @@ _UNITS: Final = ((10**9, "GB"), (10**6, "MB"), (10**3, "kB"), (1, "bytes"))
 def open_regular(path: str | os.PathLike[str], most: int) -> BinaryIO:
     """Open a regular file for reading.
 
-    Parameters
-    ----------
-    path
-        Its name; links are followed.
-    most
-        Size that it may have [bytes].
-
-    Returns
-    -------
-    BinaryIO
-        The open file; the caller closes it.
-
-    Raises
-    ------
-    OSError
-        There is no such file, it is no regular one, it is too large, or it cannot be opened; ``strerror``
-        says which.
+    ``path``: its name; links are followed; ``most``: size that it may have [bytes]. Returns the open file;
+    the caller closes it. Raises OSError if there is no such file, it is no regular one, it is too large, or
+    it cannot be opened; ``strerror`` says which.
     """
     try:
         # Asked first because to open a device may act upon it; asked again because names can change hands.
@@ -70,17 +56,8 @@ def read_regular(path: str | os.PathLike[str], most: int) -> bytes:
 def text_of(content: bytes, start: int = 0) -> str:
     """Return the text of a file, UTF-8 with or without its mark.
 
-    Parameters
-    ----------
-    content
-        Of the file, from byte ``start`` on.
-    start
-        Place of its beginning.
-
-    Raises
-    ------
-    ValueError
-        It is no such text; the message says what it is, or where it ends to be one, and what to do.
+    ``content``: of the file, from byte ``start`` on; ``start``: place of its beginning. Raises ValueError if
+    it is no such text; the message says what it is, or where it ends to be one, and what to do.
     """
     if content.startswith(ARCHIVES):
         raise ValueError("this is a workbook or a document of an office program: save the sheet as CSV")
@@ -169,15 +146,8 @@ _MARKS: Final = re.compile(
 def parse(text: str) -> dict[str, Any]:
     """Return the tables of a TOML text.
 
-    Parameters
-    ----------
-    text
-        Whatever somebody wrote.
-
-    Raises
-    ------
-    ValueError
-        It is not valid TOML, too long, too deep or has too many entries; the message says which.
+    ``text``: whatever somebody wrote. Raises ValueError if it is not valid TOML, too long, too deep or has
+    too many entries; the message says which.
     """
     if len(text) > LARGEST:
         raise ValueError(f"longer than {LARGEST} characters")

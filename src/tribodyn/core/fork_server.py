@@ -45,12 +45,8 @@ _LONGEST: Final = 100_000
 def start(*, name: str = "", toml: str = "", changes: Mapping[str, str] = MappingProxyType({})) -> None:
     """Start the server, unless there is one; return at once.
 
-    Parameters
-    ----------
-    name, toml
-        The case to be prepared for, or one with the same equations: a file or a built-in one, or its text.
-    changes
-        Values to change in it, by dotted path.
+    ``name``, ``toml``: the case to be prepared for, or one with the same equations: a file or a built-in one,
+    or its text; ``changes``: values to change in it, by dotted path.
     """
     if METHOD == "forkserver":
         from multiprocessing import forkserver, resource_tracker
@@ -73,10 +69,7 @@ def take_case() -> dict[str, Any] | None:
 def process(function: Callable[..., None], *arguments: Any) -> BaseProcess:
     """Start a process that ends with this one, by the server where there can be one.
 
-    Parameters
-    ----------
-    function, arguments
-        What it calls: a function of a module, and what that is given.
+    ``function``, ``arguments``: what it calls: a function of a module, and what that is given.
     """
     made = start_context().Process(target=function, args=arguments, daemon=True)
     with _set(ENVIRONMENT):

@@ -15,12 +15,8 @@ PLAIN: Final = "\x1b[0m"  #: Escapes that make a terminal write in grey, and as 
 def brief(text: object, most: int = LONGEST) -> str:
     """Return a text as messages quote it: whole, or its two ends where it is long.
 
-    Parameters
-    ----------
-    text
-        Whatever was given; what is no text is quoted as Python writes it.
-    most
-        Length of what is returned, at most.
+    ``text``: whatever was given; what is no text is quoted as Python writes it; ``most``: length of what is
+    returned, at most.
 
     Examples
     --------
@@ -74,12 +70,8 @@ def nearest(word: str, words: Collection[str], number: int = 5) -> str:
 def closest(word: str, words: Collection[str], *, cutoff: float = 0.5) -> str | None:
     """Return the one of `words` that means the same as `word`, or is spelled most like it, if any is.
 
-    Parameters
-    ----------
-    word, words
-        What was given, and what is allowed.
-    cutoff
-        Likeness of the spelling from which a word counts, 0 to 1.
+    ``word``, ``words``: what was given, and what is allowed; ``cutoff``: likeness of the spelling from which
+    a word counts, 0 to 1.
     """
     synonym = next((other for other in meanings(word) if other in words), None)
     if synonym is not None:

@@ -97,15 +97,9 @@ def sinusoid(mean: float, amplitude: float, angular_frequency: float, phase: flo
 def spline(knots: ArrayLike, values: ArrayLike, *, closed: bool = False) -> Signal:
     """Return the cubic spline through a table, not-a-knot at its ends and on both sides of a kink.
 
-    Parameters
-    ----------
-    knots
-        Not decreasing, shape (n,), at least two different ones; one that stands there twice is a kink.
-    values
-        Shape (n,), the same on both sides of a kink.
-    closed
-        Whether the curve is to go on smoothly from its end to its beginning, where they have one value and
-        nothing kinks between.
+    ``knots``: not decreasing, shape (n,), at least two different ones; one that stands there twice is a kink;
+    ``values``: shape (n,), the same on both sides of a kink; ``closed``: whether the curve is to go on
+    smoothly from its end to its beginning, where they have one value and nothing kinks between.
     """
     # Imported here: SciPy takes longer than all of the package, and few cases have a table.
     from scipy.interpolate import CubicSpline
@@ -124,12 +118,7 @@ def smoothed(knots: ArrayLike, values: ArrayLike) -> Signal:
 
     How near is chosen by generalised cross-validation, as in Woltring, Adv. Eng. Softw. 8 (1986) 104-113.
 
-    Parameters
-    ----------
-    knots
-        Increasing, shape (n,), five at least.
-    values
-        Shape (n,).
+    ``knots``: increasing, shape (n,), five at least; ``values``: shape (n,).
     """
     from scipy.interpolate import PPoly, make_smoothing_spline
 
@@ -143,14 +132,8 @@ def smoothed(knots: ArrayLike, values: ArrayLike) -> Signal:
 def polyline(knots: ArrayLike, values: ArrayLike, corner: float) -> Signal:
     """Return straight lines through a table whose corners are parabolas: ramps and holds of what has a mass.
 
-    Parameters
-    ----------
-    knots
-        Increasing, shape (n,), two at least.
-    values
-        Shape (n,).
-    corner
-        Length of the parabolas, half of it on either side of a row; less where rows stand closer.
+    ``knots``: increasing, shape (n,), two at least; ``values``: shape (n,); ``corner``: length of the
+    parabolas, half of it on either side of a row; less where rows stand closer.
     """
     x, y = np.asarray(knots, dtype=np.float64), np.asarray(values, dtype=np.float64)
     slope, rows = np.diff(y) / np.diff(x), []

@@ -50,12 +50,7 @@ class Cubics:
 def spline(x: FloatArray, values: FloatArray) -> Cubics:
     """Return the cubic spline through four nodes or more, its third derivative continuous next to the ends.
 
-    Parameters
-    ----------
-    x
-        Nodes, rising, shape (n,).
-    values
-        At the nodes, shape (n,).
+    ``x``: nodes, rising, shape (n,); ``values``: at the nodes, shape (n,).
 
     Notes
     -----
@@ -80,12 +75,8 @@ def spline(x: FloatArray, values: FloatArray) -> Cubics:
 def tridiagonal(below: FloatArray, diagonal: FloatArray, above: FloatArray, right: FloatArray) -> FloatArray:
     """Return the solution of a tridiagonal system by elimination with exchange of neighbouring rows.
 
-    Parameters
-    ----------
-    below, diagonal, above
-        The matrix, regular, shapes (n - 1,), (n,), (n - 1,).
-    right
-        Right-hand side, shape (n,).
+    ``below``, ``diagonal``, ``above``: the matrix, regular, shapes (n - 1,), (n,), (n - 1,); ``right``:
+    right-hand side, shape (n,).
     """
     low, mid, up, b = below.tolist(), diagonal.tolist(), above.tolist(), right.tolist()
     n = len(mid)

@@ -46,15 +46,7 @@ class Service:
 class WorkerProcess:
     """A process that answers one message at a time.
 
-    Parameters
-    ----------
-    service
-        What it does.
-
-    Raises
-    ------
-    TribodynError
-        No process can be started.
+    ``service``: what it does. Raises TribodynError if no process can be started.
     """
 
     def __init__(self, service: Service) -> None:
@@ -87,10 +79,7 @@ class WorkerProcess:
     def restart(self) -> None:
         """Replace the process by a new one.
 
-        Raises
-        ------
-        TribodynError
-            No process can be started.
+        Raises TribodynError if no process can be started.
         """
         self.end()
         self._start()

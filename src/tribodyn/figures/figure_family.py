@@ -59,19 +59,8 @@ FORMATS = (".png", ".pdf")
 def save(figure: Figure, folder: Path, name: str) -> Path:
     """Write a figure as PNG and as PDF with its text as text.
 
-    Parameters
-    ----------
-    figure
-        Drawn; its layout is fixed by saving it.
-    folder
-        Where to write; must exist.
-    name
-        File name without ending.
-
-    Returns
-    -------
-    pathlib.Path
-        The PNG file; the PDF is in the same folder.
+    ``figure``: drawn; its layout is fixed by saving it; ``folder``: where to write; must exist; ``name``:
+    file name without ending. Returns the PNG file; the PDF is in the same folder.
     """
     path = folder / f"{name}.png"
     save_png(figure, path)
@@ -86,12 +75,7 @@ def save(figure: Figure, folder: Path, name: str) -> Path:
 def save_png(figure: Figure, path: Path) -> None:
     """Write a figure as PNG.
 
-    Parameters
-    ----------
-    figure
-        Drawn.
-    path
-        File to write; its folder must exist.
+    ``figure``: drawn; ``path``: file to write; its folder must exist.
     """
     with replacing(path) as part:
         # Figure.savefig would draw it twice, the first time only to arrange its parts.

@@ -28,18 +28,9 @@ def draw_map(
 ) -> QuadMesh:
     """Draw a field on the unrolled bushing.
 
-    Parameters
-    ----------
-    axes
-        Where to draw.
-    laid
-        The bushing.
-    field
-        Values in the unit of the colour bar, shape (n_theta, n_z).
-    largest
-        Value of the darkest colour; by default the largest one.
-    level
-        Value along which a line is drawn; 0 for none.
+    ``axes``: where to draw; ``field``: values in the unit of the colour bar, shape (n_theta, n_z);
+    ``largest``: value of the darkest colour; by default the largest one; ``level``: value along which a line
+    is drawn; 0 for none.
     """
     angle, heights, values = laid.angle, laid.heights, laid.turned(field)
     look: dict[str, Any] = {"shading": "gouraud", "cmap": COLOURS, "vmin": 0.0, "rasterized": True}
@@ -77,15 +68,9 @@ def draw(
 ) -> Figure:
     """Draw the pressure [MPa] of each snapshot: forward motion at the left, reverse at the right.
 
-    Parameters
-    ----------
-    dataset
-        A result with snapshots of the pressure.
-    title
-        Title of the sheet.
-    theta, label
-        Angles of the nodes [rad], shape (n_theta,), and what the axis calls them; by default those of the
-        bushing's wall.
+    ``dataset``: a result with snapshots of the pressure; ``title``: title of the sheet; ``theta``, ``label``:
+    angles of the nodes [rad], shape (n_theta,), and what the axis calls them; by default those of the
+    bushing's wall.
     """
     figure = sheet(dataset, title, 6.2)
     places = _places(dataset)

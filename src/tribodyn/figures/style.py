@@ -48,14 +48,8 @@ _FACT: Final = 60  #: Characters of a fact about a run that stand below a title.
 def sheet(dataset: xr.Dataset, title: str, height: float, width: float = WIDTH) -> Figure:
     """Return an empty figure with its title and the name of the run.
 
-    Parameters
-    ----------
-    dataset
-        A result; gives the run's title and whether it was completed.
-    title
-        What the figure shows.
-    height, width
-        Size [in].
+    ``dataset``: a result; gives the run's title and whether it was completed; ``title``: what the figure
+    shows; ``height``, ``width``: size [in].
     """
     figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)

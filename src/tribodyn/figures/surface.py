@@ -24,12 +24,7 @@ _WIDEST: Final = 6.0  #: Heights shown [σ]; what stands beyond is in the kurtos
 def draw(surface: MeasuredSurface, others: Sequence[MeasuredSurface]) -> Figure:
     """Draw a surface.
 
-    Parameters
-    ----------
-    surface
-        The surface.
-    others
-        The same scan with other cut-offs, see :func:`tribodyn.surfaces.dependence`.
+    ``others``: the same scan with other cut-offs, see :func:`tribodyn.surfaces.dependence`.
     """
     name = surface.surface.source.replace("\\", "/").rpartition("/")[2]
     figure = style.sheet(xr.Dataset(attrs={"title": name}), TITLE, 8.2)

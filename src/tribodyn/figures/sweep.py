@@ -70,12 +70,7 @@ def _differs(numbers: xr.DataArray) -> bool:
 def draw(dataset: xr.Dataset, name: str) -> Figure:
     """Draw one key result over what varies.
 
-    Parameters
-    ----------
-    dataset
-        A sweep.
-    name
-        Name of the number.
+    ``name``: name of the number.
     """
     figure = _drawn(dataset, name)
     limit = json.loads(dataset.attrs.get("limits", "{}")).get(name)

@@ -92,14 +92,7 @@ class Binding:
     remembered for the message if it cannot recover. The Jacobian only steers that iteration,
     so the last finite one is as good there.
 
-    Parameters
-    ----------
-    problem
-        The problem; its memory is read at each call.
-    functions
-        Its functions.
-    statistics
-        Where evaluations are counted.
+    ``problem``: the problem; its memory is read at each call; ``statistics``: where evaluations are counted.
     """
 
     def __init__(self, problem: Problem, functions: CompiledFunctions, statistics: Statistics) -> None:

@@ -30,10 +30,7 @@ MOST_LEFT: Final = 1.0e9  #: Evaluations that the rest of a run may need at the 
 class Patience:
     """Watches the progress of one run.
 
-    Parameters
-    ----------
-    schedule
-        Of the run.
+    ``schedule``: of the run.
     """
 
     def __init__(self, schedule: Schedule) -> None:
@@ -45,12 +42,7 @@ class Patience:
     def look(self, t: float, evaluations: int) -> None:
         """Raise ``IntegrationFailure`` where steps have become too short to get anywhere.
 
-        Parameters
-        ----------
-        t
-            Simulated time reached [s].
-        evaluations
-            Of the right-hand side so far.
+        ``t``: simulated time reached [s]; ``evaluations``: of the right-hand side so far.
         """
         now = time.monotonic()
         if now - self._looked < LOOK:
@@ -70,12 +62,8 @@ class Patience:
 class Kept:
     """Room for all rows and pictures of a run, which takes memory as it is filled.
 
-    Parameters
-    ----------
-    problem
-        Which numbers of a row it keeps, and the type of its pictures.
-    n_rows, n_pictures
-        Numbers of output times and of times of pictures.
+    ``problem``: which numbers of a row it keeps, and the type of its pictures; ``n_rows``, ``n_pictures``:
+    numbers of output times and of times of pictures.
 
     Attributes
     ----------

@@ -42,14 +42,9 @@ def make_schedule(
 ) -> Schedule:
     """Check the times of an integration and put them on common marks.
 
-    Parameters
-    ----------
-    t_span
-        Start and end time [s].
-    breakpoints
-        Restarts strictly inside ``t_span`` [s]; those on its ends are dropped.
-    output_times, picture_times
-        Times inside ``t_span`` [s], ends included, increasing.
+    ``t_span``: start and end time [s]; ``breakpoints``: restarts strictly inside ``t_span`` [s]; those on its
+    ends are dropped; ``output_times``, ``picture_times``: times inside ``t_span`` [s], ends included,
+    increasing.
     """
     t_start, t_end = t_span
     if not (np.isfinite(t_start) and np.isfinite(t_end) and t_start < t_end):
@@ -117,14 +112,8 @@ Rows = tuple[FloatArray, FloatArray]  #: Times [s], shape (n,), and rows, shape 
 class Followed:
     """Rows of accepted steps of one integration.
 
-    Parameters
-    ----------
-    following
-        Which steps give rows; None for no step.
-    n_observed
-        Numbers of a row.
-    kept
-        Places in a row of the numbers that are kept, rising; None for all.
+    ``following``: which steps give rows; None for no step; ``n_observed``: numbers of a row; ``kept``: places
+    in a row of the numbers that are kept, rising; None for all.
 
     Attributes
     ----------
@@ -167,12 +156,8 @@ class Followed:
     def merged(self, times: FloatArray, rows: FloatArray) -> Rows:
         """Return other rows and those kept, in the order of time; both are given away.
 
-        Parameters
-        ----------
-        times
-            Of the other rows, shape (n,).
-        rows
-            Begin with them and own their memory, shape (n or more, n_kept); those kept are added in place.
+        ``times``: of the other rows, shape (n,); ``rows``: begin with them and own their memory, shape (n or
+        more, n_kept); those kept are added in place.
         """
         stretches = list(self._stretches.values())
         self._stretches.clear()
@@ -266,12 +251,8 @@ def thinning(values: FloatArray, most: int) -> NDArray[np.intp]:
     The rows are cut into pieces of equal number; of each the first is kept and, of every column, the smallest
     and the largest value. So all peaks stay, also if rows are thinned again.
 
-    Parameters
-    ----------
-    values
-        What must keep its peaks, shape (n, n_columns).
-    most
-        At least one row more than two for each column.
+    ``values``: what must keep its peaks, shape (n, n_columns); ``most``: at least one row more than two for
+    each column.
     """
     n, columns = values.shape
     if n <= most:

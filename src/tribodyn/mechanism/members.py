@@ -24,14 +24,8 @@ M = TypeVar("M", bound=WithKeys)
 def members_of(package: str, names: Iterable[str], base: type[T]) -> Iterator[type[T]]:
     """Yield the classes of a kind that modules of a package define, in the order of the modules.
 
-    Parameters
-    ----------
-    package
-        Dotted name of the package.
-    names
-        Its modules that hold members.
-    base
-        What members are classes of; classes whose names begin with an underscore are none.
+    ``package``: dotted name of the package; ``names``: its modules that hold members; ``base``: what members
+    are classes of; classes whose names begin with an underscore are none.
     """
     for name in names:
         module = import_module(f"{package}.{name}")

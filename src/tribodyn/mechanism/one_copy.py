@@ -20,19 +20,9 @@ def one_copy(case: Any, together: xr.Dataset, instants: Sequence[float]) -> Case
     ideal joint on the ground. Where that turns and slides, the copy alone says how the carrier slides, with
     its share of the mass. Whatever else is not repeated is left out.
 
-    Parameters
-    ----------
-    case
-        With one pattern.
-    together
-        Its result with equal copies.
-    instants
-        Times of each cycle at which errors of the outputs are read [s].
-
-    Raises
-    ------
-    InputError
-        There is no pattern or several, or a carrier has no such joint.
+    ``case``: with one pattern; ``together``: its result with equal copies; ``instants``: times of each cycle
+    at which errors of the outputs are read [s]. Raises InputError if there is no pattern or several, or a
+    carrier has no such joint.
     """
     demand(len(case.pattern) == 1, PATTERN, "builds are made of the copies of one pattern")
     (pattern,) = case.pattern.values()

@@ -24,26 +24,10 @@ def damped_newton(
 
     The stiffness of rough contact changes by e every third of σ, so a step may not pass much more.
 
-    Parameters
-    ----------
-    residual
-        Loads and their derivative, see :data:`Residual`.
-    start
-        First guess, shape (n,).
-    scale
-        Size of a unit of each unknown as a length of one metre counts, shape (n,).
-    longest
-        Longest step [m].
-
-    Returns
-    -------
-    numpy.ndarray or None
-        The solution, or None where the iteration does not settle.
-
-    Raises
-    ------
-    Stopped
-        If the caller wanted to stop before the end.
+    ``residual``: loads and their derivative, see :data:`Residual`; ``start``: first guess, shape (n,);
+    ``scale``: size of a unit of each unknown as a length of one metre counts, shape (n,); ``longest``:
+    longest step [m]. Returns the solution, or None where the iteration does not settle. Raises Stopped if the
+    caller wanted to stop before the end.
     """
     q = start.copy()
     load, jacobian = residual(q)

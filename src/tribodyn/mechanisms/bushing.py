@@ -165,20 +165,10 @@ def of_heat(cold: float, hot: float, material: Mapping[str, tuple[float, float]]
 def loading(law: ContactLaw, touch: Touch, pressure: float, separation: float) -> dict[str, float]:
     """Return the load measures of two surfaces, by name; NaN where the contact is at points.
 
-    Parameters
-    ----------
-    law, touch
-        Their contact law, and the surfaces.
-    pressure
-        Largest contact pressure [Pa].
-    separation
-        Smallest gap [m].
-
-    Returns
-    -------
-    dict
-        ``hardness_share``, the pressure over the hardness of the bushing, and ``real_area_share``, the real
-        area of contact over the nominal one where the gap was smallest; NaN where the contact law has none.
+    ``law``, ``touch``: their contact law, and the surfaces; ``pressure``: largest contact pressure [Pa];
+    ``separation``: smallest gap [m]. Returns ``hardness_share``, the pressure over the hardness of the
+    bushing, and ``real_area_share``, the real area of contact over the nominal one where the gap was
+    smallest; NaN where the contact law has none.
     """
     if not touch.over_surface:
         return {"hardness_share": math.nan, "real_area_share": math.nan}

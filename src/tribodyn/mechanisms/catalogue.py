@@ -187,10 +187,7 @@ def templates() -> dict[str, str]:
 def template(name: str) -> str:
     """Return the text of a case file that ``tribodyn new`` writes.
 
-    Raises
-    ------
-    InputError
-        There is no such template.
+    Raises InputError if there is no such template.
     """
     for mechanism in MECHANISMS.values():
         if name in mechanism.templates:
@@ -216,10 +213,7 @@ AnyCase: TypeAlias = Case | Described | str | os.PathLike[str]
 def case_of(given: AnyCase) -> Case:
     """Return the case that a user gave or named.
 
-    Raises
-    ------
-    InputError
-        There is no such case or file, something in it is wrong, or this is no case at all.
+    Raises InputError if there is no such case or file, something in it is wrong, or this is no case at all.
     """
     if isinstance(given, Case):
         return given
@@ -235,13 +229,7 @@ def case_of(given: AnyCase) -> Case:
 def parse_case(text: str, source: str, folder: Path | None = None) -> Case:
     """Return the case that a TOML text describes.
 
-    Parameters
-    ----------
-    text
-        Content of a case file.
-    source
-        Where it comes from, for messages.
-    folder
-        Where the names of files in it begin; None is the current directory.
+    ``text``: content of a case file; ``source``: where it comes from, for messages; ``folder``: where the
+    names of files in it begin; None is the current directory.
     """
     return load.parse(text, source, kinds(), folder, built_in())

@@ -34,14 +34,9 @@ def flash_of(
     where it has none, in as many equal spots as asperities touch. They belong to the rougher surface and pass
     over the other.
 
-    Parameters
-    ----------
-    surfaces, law, touch
-        Both surfaces with what they do with heat, and their contact.
-    friction_coefficient
-        μ [1].
-    pressure, separation, speed
-        Largest pressure p [Pa], smallest gap [m], and speed of sliding V [m/s].
+    ``surfaces``, ``law``, ``touch``: both surfaces with what they do with heat, and their contact;
+    ``friction_coefficient``: μ [1]; ``pressure``, ``separation``, ``speed``: largest pressure p [Pa],
+    smallest gap [m], and speed of sliding V [m/s].
     """
     trunnion, bushing = _conductor(surfaces.trunnion), _conductor(surfaces.bushing)
     if trunnion is None or bushing is None or not touch.over_surface:
@@ -67,16 +62,8 @@ def flash_of_bushing(
 ) -> dict[str, float]:
     """Return the flash temperature of a bushing where pressure times speed was largest, by name.
 
-    Parameters
-    ----------
-    surfaces, law
-        As for :func:`flash_of`.
-    joint
-        The bushing.
-    rows
-        Columns of the run, of which pressures and gaps are used.
-    speed
-        Of sliding at each row [m/s], shape (n_t,).
+    ``surfaces``, ``law``: as for :func:`flash_of`; ``rows``: columns of the run, of which pressures and gaps
+    are used; ``speed``: of sliding at each row [m/s], shape (n_t,).
     """
     if not (has_conductors(surfaces) and joint.touch.over_surface and speed.size):
         return {}

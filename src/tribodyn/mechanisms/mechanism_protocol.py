@@ -156,20 +156,14 @@ class SimulatedSystem(Protocol):
     def check(self) -> Sequence[str]:
         """Put the mechanism together, joints and contact laws with it; raise what a run would refuse.
 
-        Returns
-        -------
-        sequence of str
-            What a user should know of the mechanism before it runs, one sentence each.
+        Returns what a user should know of the mechanism before it runs, one sentence each.
         """
         ...
 
     def problem(self, duration: float, worn: Worn | None = None) -> Problem:
         """Return the initial value problem over ``duration`` [s]; where nothing wears ``worn`` is None.
 
-        Raises
-        ------
-        Stopped
-            If the caller wanted to stop while a place to begin at was looked for.
+        Raises Stopped if the caller wanted to stop while a place to begin at was looked for.
         """
         ...
 
@@ -231,17 +225,8 @@ class WearingSystem(SimulatedSystem, Protocol):
     def output_lives(self, run: FinishedRun, depth: FloatArray) -> Mapping[str, float]:
         """Return after how many cycles the errors of outputs reach their limits, by their names.
 
-        Parameters
-        ----------
-        run
-            A complete cycle at least.
-        depth
-            What is worn off at the nodes in each cycle [m], in their shape.
-
-        Returns
-        -------
-        mapping
-            Of all outputs; NaN for those that never do, or of which nothing is known.
+        ``run``: a complete cycle at least; ``depth``: what is worn off at the nodes in each cycle [m], in
+        their shape. The result holds NaN for outputs that never do, or of which nothing is known.
         """
         ...
 

@@ -126,12 +126,8 @@ def limits_of(outputs: Mapping[str, ErrorKeys]) -> FloatArray:
 def error_share(columns: Mapping[str, FloatArray], outputs: Mapping[str, ErrorKeys]) -> float:
     """Return the largest error of an output over its limit; zero without limits.
 
-    Parameters
-    ----------
-    columns
-        Of the outputs, ``output_error`` of shape (n_t, n) among them; none without outputs.
-    outputs
-        In this order.
+    ``columns``: of the outputs, ``output_error`` of shape (n_t, n) among them; none without outputs;
+    ``outputs``: in this order.
     """
     shares = np.abs(columns["output_error"]) / limits_of(outputs) if outputs else np.zeros(1)
     known = shares[np.isfinite(shares)]

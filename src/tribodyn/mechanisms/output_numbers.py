@@ -85,16 +85,8 @@ def passes(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the times at which a coordinate passes a value [s], and directions: 1, −1, or 0 for a return.
 
-    Parameters
-    ----------
-    times
-        Rising [s], shape (n_t,).
-    coordinate
-        Over these, shape (n_t,).
-    value
-        To be passed.
-    turns
-        Whether values that differ by whole turns are the same.
+    ``times``: rising [s], shape (n_t,); ``coordinate``: over these, shape (n_t,); ``value``: to be passed;
+    ``turns``: whether values that differ by whole turns are the same.
     """
     least, most = float(coordinate.min()), float(coordinate.max())
     room = _ROUNDING * max(most - least, abs(least), abs(most))
@@ -285,14 +277,8 @@ def shaft_displacements(
 ) -> FloatArray:
     """Return displacement [m] and rotation [rad] of a shaft that follows the wear, shape (n_t, 6).
 
-    Parameters
-    ----------
-    position, normal
-        Of the nodes on the shaft [m], and into the bore, shape (n, 3).
-    weight
-        Pressure times area over time [N], shape (n_t, n).
-    depth
-        Worn off at the nodes [m], shape (n,).
+    ``position``, ``normal``: of the nodes on the shaft [m], and into the bore, shape (n, 3); ``weight``:
+    pressure times area over time [N], shape (n_t, n); ``depth``: worn off at the nodes [m], shape (n,).
     """
     size = float(np.max(np.linalg.norm(position, axis=1), initial=np.finfo(float).tiny))
     lever = np.concatenate([normal, np.cross(position / size, normal)], axis=1)
@@ -311,14 +297,8 @@ def shaft_displacements(
 def lives(error: FloatArray, growth: FloatArray, limits: FloatArray) -> FloatArray:
     """Return after how many cycles errors reach their limits, shape (n_outputs,); NaN for never.
 
-    Parameters
-    ----------
-    error
-        Over time in the units of the outputs, shape (n_t, n_outputs).
-    growth
-        Of the error in one cycle, in the same shape; NaN where it is not known.
-    limits
-        Shape (n_outputs,); NaN for none.
+    ``error``: over time in the units of the outputs, shape (n_t, n_outputs); ``growth``: of the error in one
+    cycle, in the same shape; NaN where it is not known; ``limits``: shape (n_outputs,); NaN for none.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         cycles = (limits - error * np.sign(growth)) / np.abs(growth)

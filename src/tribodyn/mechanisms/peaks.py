@@ -48,21 +48,10 @@ def of_rows(
 ) -> dict[str, FloatArray]:
     """Return the same peaks and times [s] from rows that follow the steps, by name.
 
-    Parameters
-    ----------
-    times
-        Of the rows [s], shape (n_t,).
-    values
-        Quantities by name, shape (n_t, n) each; their sizes are looked at.
-    begins
-        The start and the reversals that were reached [s], shape (n_reversals,).
-    window
-        How long impacts last after each [s].
-
-    Returns
-    -------
-    dict
-        Of shape (n_reversals, n) each, NaN where there is no finite value.
+    ``times``: of the rows [s], shape (n_t,); ``values``: quantities by name, shape (n_t, n) each; their sizes
+    are looked at; ``begins``: the start and the reversals that were reached [s], shape (n_reversals,);
+    ``window``: how long impacts last after each [s]. Returns of shape (n_reversals, n) each, NaN where there
+    is no finite value.
     """
     shape = (begins.size, next(iter(values.values())).shape[1])
     found = {f"{name}_{part}": np.full(shape, np.nan) for name in values for part in PARTS}

@@ -23,18 +23,9 @@ def frame_times(
 ) -> FloatArray:
     """Return the times of all frames [s], increasing, shape (n_frames,).
 
-    Parameters
-    ----------
-    duration
-        Simulated time [s].
-    period
-        Time of one drive cycle [s].
-    reversals
-        Times at which the motion turns around [s].
-    window
-        How long after a reversal frames are close together [s].
-    even
-        Frames in a cycle, without those after reversals.
+    ``duration``: simulated time [s]; ``period``: time of one drive cycle [s]; ``reversals``: times at which
+    the motion turns around [s]; ``window``: how long after a reversal frames are close together [s];
+    ``even``: frames in a cycle, without those after reversals.
     """
     cycles = {first_frame(duration, period), 0.0}
     parts = [_of_cycle(start, min(period, duration), reversals, window, even) for start in sorted(cycles)]
@@ -49,12 +40,8 @@ def first_frame(duration: float, period: float) -> float:
 def shown(times: FloatArray, duration: float, period: float) -> slice:
     """Return the frames of the film among those that were reached: one cycle, the last one if it was begun.
 
-    Parameters
-    ----------
-    times
-        Times of the frames reached [s], increasing.
-    duration, period
-        As for :func:`frame_times`.
+    ``times``: times of the frames reached [s], increasing; ``duration``, ``period``: as for
+    :func:`frame_times`.
     """
     last = first_frame(duration, period) - _SAME * duration
     begin = int(np.searchsorted(times, last))

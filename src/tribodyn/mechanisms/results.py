@@ -48,10 +48,7 @@ def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] 
 def mechanism_of(dataset: xr.Dataset) -> MechanismDescriptor:
     """Return the mechanism that a result is of.
 
-    Raises
-    ------
-    InputError
-        There is no such mechanism.
+    Raises InputError if there is no such mechanism.
     """
     kind = str(dataset.attrs.get("kind", ""))
     if kind not in MECHANISMS:

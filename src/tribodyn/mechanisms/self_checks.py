@@ -61,16 +61,8 @@ def beyond_law(
 ) -> str:
     """Return why a run stopped at ``t_end`` [s] that left the range of its contact law.
 
-    Parameters
-    ----------
-    h_first
-        Where its table begins, over σ [1].
-    t_end
-        Simulated time reached [s].
-    surfaces
-        Which ones, in words.
-    cause, advice
-        What to say of it, and what helps.
+    ``h_first``: where its table begins, over σ [1]; ``t_end``: simulated time reached [s]; ``surfaces``:
+    which ones, in words; ``cause``, ``advice``: what to say of it, and what helps.
     """
     return (
         f"stopped at t = {t_end:.6g} s: the surfaces of {surfaces} came closer than the contact law reaches "
@@ -81,14 +73,8 @@ def beyond_law(
 def instant(time: float, begins: Iterable[float] = (), impact_time: float = 0.0) -> str:
     """Return an instant in words, with the impact that it belongs to.
 
-    Parameters
-    ----------
-    time
-        The instant [s]; NaN where it is not known.
-    begins
-        Times of the start and of the reversals [s].
-    impact_time
-        How long impacts last after each of them [s].
+    ``time``: the instant [s]; NaN where it is not known; ``begins``: times of the start and of the reversals
+    [s]; ``impact_time``: how long impacts last after each of them [s].
     """
     if math.isnan(time):
         return "at an unknown time"
@@ -112,12 +98,8 @@ def of_plastic(share: float, when: str) -> list[str]:
 def of_load(loading: Mapping[str, float], when: str) -> list[str]:
     """Return remarks on the load on the surfaces; empty texts without any.
 
-    Parameters
-    ----------
-    loading
-        From :func:`tribodyn.mechanisms.bushing.loading`.
-    when
-        The instant of the largest pressure in words, see :func:`instant`.
+    ``loading``: from :func:`tribodyn.mechanisms.bushing.loading`; ``when``: the instant of the largest
+    pressure in words, see :func:`instant`.
     """
     hardness, area = loading["hardness_share"], loading["real_area_share"]
     return [
@@ -157,18 +139,9 @@ def of_damping_pressure(pressure: float, at_rest: float) -> str:
 def of_reversals(every: FloatArray, turns: FloatArray, *, period: float, t_end: float, carried: bool) -> str:
     """Report the reversals of a drive cycle that a run does not hold with the impacts that follow them.
 
-    Parameters
-    ----------
-    every
-        Reversals of a cycle [s], shape (n,).
-    turns
-        The start and the reversals that were reached [s], shape (m,).
-    period
-        Time of a cycle [s].
-    t_end
-        Simulated time reached [s].
-    carried
-        Whether the start is a reversal, because the run continues from another one.
+    ``every``: reversals of a cycle [s], shape (n,); ``turns``: the start and the reversals that were reached
+    [s], shape (m,); ``period``: time of a cycle [s]; ``t_end``: simulated time reached [s]; ``carried``:
+    whether the start is a reversal, because the run continues from another one.
     """
     settling = impact_time(period)
     held = turns[(turns + settling <= t_end) & ((turns > 0.0) | carried)]
@@ -198,20 +171,10 @@ def of_contact(
 ) -> list[str]:
     """Return remarks on a contact, whatever is joined by it; empty texts without any.
 
-    Parameters
-    ----------
-    touch
-        The two surfaces.
-    separation
-        Least distance of the mean planes [m].
-    clipped
-        Share of the contact area where the tensile clip acts, mean over time.
-    grid_error
-        Largest error of the contact force on the run's grid, as a fraction; NaN where it is not known.
-    grid
-        Nodes around and along.
-    keys
-        Which keys of the case set them.
+    ``separation``: least distance of the mean planes [m]; ``clipped``: share of the contact area where the
+    tensile clip acts, mean over time; ``grid_error``: largest error of the contact force on the run's grid,
+    as a fraction; NaN where it is not known; ``grid``: nodes around and along; ``keys``: which keys of the
+    case set them.
     """
     surface = touch.over_surface
     depth = touch.asperity_separation(separation) if surface else math.inf
@@ -270,14 +233,8 @@ def of_tables(
 ) -> list[str]:
     """Return the tables over angles or positions that a run leaves.
 
-    Parameters
-    ----------
-    tables
-        Of the case.
-    times
-        Of the rows [s], shape (n_t,).
-    coordinate
-        Returns the values at the rows of what a table follows, shape (n_t,).
+    ``tables``: of the case; ``times``: of the rows [s], shape (n_t,); ``coordinate``: returns the values at
+    the rows of what a table follows, shape (n_t,).
     """
     messages = []
     for table in tables:
@@ -291,11 +248,8 @@ def of_tables(
 def of_steps(statistics: Mapping[str, float]) -> list[str]:
     """Return remarks on the integration; empty texts without any.
 
-    Parameters
-    ----------
-    statistics
-        Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`; restarts at times
-        that are known before are expected and do not count.
+    ``statistics``: cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`;
+    restarts at times that are known before are expected and do not count.
     """
     steps, rejected, restarts = (statistics[name] for name in ("steps", "rejected", "restarts"))
     return [

@@ -55,14 +55,8 @@ def shortest_wave(terms: Iterable[Term]) -> float:
 def actions_of(signals: SignalList, terms: Sequence[Term], segments: Any) -> Actions:
     """Return the data of the kernels.
 
-    Parameters
-    ----------
-    signals
-        Those that the mechanism has numbered before.
-    terms
-        Its loads from tables.
-    segments
-        From :func:`segments_of`.
+    ``signals``: those that the mechanism has numbered before; ``terms``: its loads from tables; ``segments``:
+    from :func:`segments_of`.
     """
     records = term_records(signals, terms)
     return Actions(signals.records(), records, segments)
@@ -93,14 +87,8 @@ def crossings(
 ) -> FloatArray:
     """Return the times at which a coordinate passes some values, shape (n,).
 
-    Parameters
-    ----------
-    coordinate
-        Its values at times [s].
-    turns
-        Times between which it grows or falls all the way, those of begin and end of the run among them.
-    levels
-        The values.
+    ``coordinate``: its values at times [s]; ``turns``: times between which it grows or falls all the way,
+    those of begin and end of the run among them.
     """
     at = coordinate(turns)
     level, begin, end = (
@@ -124,17 +112,10 @@ def segments_of(
 ) -> Any:
     """Return the segments of a run as kernels read them, shape (n,).
 
-    Parameters
-    ----------
-    breaks
-        Instants between segments [s], increasing, shape (n - 1,).
-    directions
-        Direction of motion in each segment, shape (n,).
-    time_kinks
-        Where signals over time kink, those beyond the run among them [s].
-    others
-        Of each other coordinate its values in the middle of the segments, shape (n,), and where signals over
-        it kink.
+    ``breaks``: instants between segments [s], increasing, shape (n - 1,); ``directions``: direction of motion
+    in each segment, shape (n,); ``time_kinks``: where signals over time kink, those beyond the run among them
+    [s]; ``others``: of each other coordinate its values in the middle of the segments, shape (n,), and where
+    signals over it kink.
     """
     segments = new_records(directions.size, kinds.Segment)
     segments.begin = np.concatenate([[0.0], breaks])
@@ -169,16 +150,9 @@ def parts_of(
 ) -> Iterator[tuple[FloatArray, Factors]]:
     """Yield components of force and moment, shape (6,), and the signals whose product multiplies them.
 
-    Parameters
-    ----------
-    load
-        The load.
-    coordinates
-        Numbers of what signals follow, by the names that tables have for them.
-    period
-        Time after which a table over time of that length repeats [s]; None where none does.
-    duration
-        Of the run [s].
+    ``coordinates``: numbers of what signals follow, by the names that tables have for them; ``period``: time
+    after which a table over time of that length repeats [s]; None where none does; ``duration``: of the run
+    [s].
     """
     for key, signal in load.given.items():
         cycle = signal.period if signal.cyclic else period if signal.pulse is None else None
@@ -212,20 +186,10 @@ def shaft_terms(
 ) -> Iterator[Term]:
     """Yield the terms of a load on a shaft that turns about Z.
 
-    Parameters
-    ----------
-    parts
-        From :func:`parts_of`.
-    targets
-        Where components go; those that are missing do nothing.
-    arm
-        From the centre of the shaft to where forces act, in the axes of the shaft [m], shape (3,).
-    angle
-        Number of the angle by which the shaft turns.
-    follower
-        Whether the load turns with it, or is fixed in space.
-    against
-        Whether the load opposes the motion.
+    ``parts``: from :func:`parts_of`; ``targets``: where components go; those that are missing do nothing;
+    ``arm``: from the centre of the shaft to where forces act, in the axes of the shaft [m], shape (3,);
+    ``angle``: number of the angle by which the shaft turns; ``follower``: whether the load turns with it, or
+    is fixed in space; ``against``: whether the load opposes the motion.
     """
     wave = {name: sinusoid(0.0, 1.0, 1.0, phase) for name, phase in (("cos", 0.5 * math.pi), ("sin", 0.0))}
     extra: tuple[Factors, ...] = ((), ((wave["cos"], angle),), ((wave["sin"], angle),))

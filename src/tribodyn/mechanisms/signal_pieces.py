@@ -82,12 +82,7 @@ def _value(polynomial: FloatArray, x: float) -> float:
 def backward(signals: kinds.Signals, numbers: Iterable[int]) -> kinds.Signals:
     """Return signals of which some run backward: at −x they have the value that they had at x.
 
-    Parameters
-    ----------
-    signals
-        All of a mechanism; they stay as they are.
-    numbers
-        Of those that follow time.
+    ``signals``: all of a mechanism; they stay as they are; ``numbers``: of those that follow time.
     """
     records, pieces = signals.signals.copy(), signals.pieces.copy()
     for number in numbers:
@@ -105,14 +100,8 @@ def backward(signals: kinds.Signals, numbers: Iterable[int]) -> kinds.Signals:
 def constant(signals: kinds.Signals, numbers: Iterable[int], places: FloatArray) -> kinds.Signals:
     """Return signals of which some are constant around places: each value holds halfway to the next.
 
-    Parameters
-    ----------
-    signals
-        All of a mechanism; they stay as they are.
-    numbers
-        Of those that follow time.
-    places
-        Where their values are taken, rising, shape (n,).
+    ``signals``: all of a mechanism; they stay as they are; ``numbers``: of those that follow time;
+    ``places``: where their values are taken, rising, shape (n,).
     """
     records, pieces = signals.signals.copy(), [signals.pieces]
     until = np.append(0.5 * (places[1:] + places[:-1]), np.inf)

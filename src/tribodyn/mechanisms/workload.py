@@ -48,18 +48,9 @@ def simulated_cycles(wear: Wear, settling: int, roughness: float, radius: float,
 
     Depth per cycle is that of a typical pressure over a slip of one radius, so this is an order of magnitude.
 
-    Parameters
-    ----------
-    wear
-        Its table of the case.
-    settling
-        Cycles before the first one whose wear counts.
-    roughness
-        Combined rms roughness σ [m].
-    radius
-        Of the shaft [m].
-    rows
-        Of temperatures that follow time: a jump ends at each.
+    ``wear``: its table of the case; ``settling``: cycles before the first one whose wear counts;
+    ``roughness``: combined rms roughness σ [m]; ``radius``: of the shaft [m]; ``rows``: of temperatures that
+    follow time: a jump ends at each.
     """
     if not (wear.feedback or rows):
         return settling + 2.0

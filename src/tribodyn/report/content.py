@@ -28,21 +28,9 @@ def chapters(
 ) -> tuple[list[Shown], dict[str, Any]]:
     """Return the chapters that a result has data for, and what their scripts read.
 
-    Parameters
-    ----------
-    dataset
-        A result.
-    planned
-        Chapters of its kind.
-    stills
-        PNG files. One that no section stands for gets a place at the end: no figure is lost.
-    families
-        What is known of figures, by the names of the files.
-
-    Returns
-    -------
-    shown, payloads
-        Chapters for the template; data by name of the section.
+    ``planned``: chapters of its kind. ``stills``: PNG files. One that no section stands for gets a place at
+    the end: no figure is lost. ``families``: what is known of figures, by the names of the files. Returns
+    chapters for the template; data by name of the section.
     """
     pictures = {path.stem: path for path in stills}
     shown: list[Shown] = []
@@ -110,10 +98,7 @@ def embedded(path: Path) -> str:
 
     Its colours are rounded by an octree: faster than a median cut, which also loses colours of thin lines.
 
-    Raises
-    ------
-    OSError
-        The file is missing, or no picture.
+    Raises OSError if the file is missing, or no picture.
     """
     drawn = Image.open(io.BytesIO(read_regular(path, _LARGEST_PICTURE))).convert("RGB")
     few = drawn.quantize(_COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)

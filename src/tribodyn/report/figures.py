@@ -70,19 +70,9 @@ _SOLIDS: Final = ".glb"
 def animate(dataset: xr.Dataset, path: Path, seconds: float) -> Path:
     """Write the last cycle of a result as a film, or as solids that move.
 
-    Parameters
-    ----------
-    dataset
-        A result of a mechanism that can be drawn in motion.
-    path
-        File to write; its extension says what: ``.gif``, ``.mp4`` or ``.glb``.
-    seconds
-        Length of the film [s].
-
-    Raises
-    ------
-    InputError
-        There is no motion to show, no such kind of file, or ``ffmpeg`` is missing for ``.mp4``.
+    ``dataset``: a result of a mechanism that can be drawn in motion; ``path``: file to write; its extension
+    says what: ``.gif``, ``.mp4`` or ``.glb``; ``seconds``: length of the film [s]. Raises InputError if there
+    is no motion to show, no such kind of file, or ``ffmpeg`` is missing for ``.mp4``.
     """
     animation = mechanism_of(dataset).animation
     if animation is None:

@@ -32,20 +32,9 @@ GROUPS: Final = ("Accuracy", "Load")  #: Groups of key results that the report s
 def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict[str, Any] | None:
     """Return the bands of a run as the page shows them; nothing without a sweep of the same case.
 
-    Parameters
-    ----------
-    dataset
-        The result of the run.
-    summary
-        Its key results.
-    folder
-        Where the report goes.
-
-    Returns
-    -------
-    dict or None
-        ``keys`` with their range in words, and ``rows`` with label, unit, value, whole band and the band of
-        each key alone, the others being those of the run.
+    ``dataset``: the result of the run; ``summary``: its key results; ``folder``: where the report goes.
+    Returns ``keys`` with their range in words, and ``rows`` with label, unit, value, whole band and the band
+    of each key alone, the others being those of the run.
     """
     sweep = _sweep_of(dataset, folder / FOLDER / "sweep.nc")
     if sweep is None:
@@ -260,14 +249,8 @@ def page(template: str = "page.html", *, payload: Mapping[str, Any] | None, **co
 
     Every text is escaped: a title may hold anything. Only our own scripts run, named by their hashes.
 
-    Parameters
-    ----------
-    template
-        A file in ``templates``.
-    payload
-        What the scripts read; without it the page has no scripts.
-    content
-        What the template asks for.
+    ``template``: a file in ``templates``; ``payload``: what the scripts read; without it the page has no
+    scripts; ``content``: what the template asks for.
     """
     environment = Environment(
         loader=PackageLoader("tribodyn.report"),

@@ -83,12 +83,7 @@ class ParallelPoint:
 def points_of(dataset: xr.Dataset, folder: Path | None) -> list[ParallelPoint]:
     """Return the points of a sweep.
 
-    Parameters
-    ----------
-    dataset
-        A sweep.
-    folder
-        Where it is stored: reports of points that are there are linked.
+    ``folder``: where it is stored: reports of points that are there are linked.
     """
     names = [str(name) for name in dataset["points"].values.ravel()]
     failures = [str(failure) for failure in dataset["failure"].values.ravel()]

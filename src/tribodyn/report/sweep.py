@@ -19,14 +19,8 @@ from tribodyn.views.section import Chapter, Section
 def render_sweep(dataset: xr.Dataset, stills: Sequence[Path], folder: Path | None) -> str:
     """Return the page of a sweep as text.
 
-    Parameters
-    ----------
-    dataset
-        A sweep.
-    stills
-        PNG files of its figures, shown below.
-    folder
-        Where the sweep is stored: reports of points that are there are linked.
+    ``stills``: PNG files of its figures, shown below; ``folder``: where the sweep is stored: reports of
+    points that are there are linked.
     """
     axes, points = axes_of(dataset), points_of(dataset, folder)
     first = key_numbers_of(str(dataset.attrs.get("swept_kind", "")), [axis.name for axis in axes])

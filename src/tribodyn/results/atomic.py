@@ -21,10 +21,7 @@ def replacing(path: Path) -> Iterator[Path]:
     The temporary file is flushed to the disk before it takes the name, so that after a crash the name
     holds either the old file or the new one. When the block raises, the old file stays as it was.
 
-    Parameters
-    ----------
-    path
-        File to write; its folder must exist.
+    ``path``: file to write; its folder must exist.
     """
     part = _part(path)
     try:
@@ -39,17 +36,8 @@ def replacing(path: Path) -> Iterator[Path]:
 def stage(path: Path, *content: bytes | memoryview) -> Path:
     """Write a future file's content to a temporary path beside it, on the disk when this returns.
 
-    Parameters
-    ----------
-    path
-        Any name in a folder that exists.
-    content
-        Of the file, in parts that follow each other.
-
-    Returns
-    -------
-    pathlib.Path
-        The temporary path, for :func:`adopt`; when the file cannot be written whole, it is gone.
+    ``path``: any name in a folder that exists; ``content``: of the file, in parts that follow each other.
+    Returns the temporary path, for :func:`adopt`; when the file cannot be written whole, it is gone.
     """
     part = _part(path)
     try:
@@ -74,12 +62,7 @@ def adopt(part: Path, path: Path) -> None:
 def write_bytes(path: Path, content: bytes) -> None:
     """Write a file whole or not at all.
 
-    Parameters
-    ----------
-    path
-        File to write; its folder must exist.
-    content
-        Its whole content.
+    ``path``: file to write; its folder must exist; ``content``: its whole content.
     """
     adopt(stage(path, content), path)
 
@@ -87,12 +70,7 @@ def write_bytes(path: Path, content: bytes) -> None:
 def write_text(path: Path, text: str) -> None:
     """Write a UTF-8 text file whole or not at all.
 
-    Parameters
-    ----------
-    path
-        File to write; its folder must exist.
-    text
-        Its whole content.
+    ``path``: file to write; its folder must exist; ``text``: its whole content.
     """
     write_bytes(path, text.encode())
 
@@ -104,12 +82,8 @@ def write_together(contents: Mapping[Path, Sequence[bytes | memoryview]], stale:
     file takes its name, and the others theirs: whenever the process is killed, none is there with a first
     file that it does not belong to.
 
-    Parameters
-    ----------
-    contents
-        Parts of the content of each file by its path, the one that all others follow from first.
-    stale
-        Other files that belong to the old first file; they need not exist.
+    ``contents``: parts of the content of each file by its path, the one that all others follow from first;
+    ``stale``: other files that belong to the old first file; they need not exist.
     """
     parts: dict[Path, Path] = {}
     folder = next(iter(contents)).parent
@@ -130,12 +104,8 @@ def write_together(contents: Mapping[Path, Sequence[bytes | memoryview]], stale:
 def remove_stale_parts(folder: Path, *, alone: bool = False) -> None:
     """Remove temporary files that a killed process left in a folder; those being written now stay.
 
-    Parameters
-    ----------
-    folder
-        Where to look; it need not exist.
-    alone
-        Whether no other process writes there, so that all are left from a killed one.
+    ``folder``: where to look; it need not exist; ``alone``: whether no other process writes there, so that
+    all are left from a killed one.
     """
     for part in folder.glob(".*.part"):
         with suppress(OSError):

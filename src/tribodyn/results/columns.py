@@ -38,10 +38,7 @@ _DEGREE: Final = np.pi / 180.0
 def variable(run: xr.Dataset, name: str, key: str) -> FloatArray:
     """Return a variable of a result over time by the name of a column, SI units, shape (n,).
 
-    Raises
-    ------
-    InputError
-        There is no such variable or label, or a label is missing. The message names ``key``.
+    Raises InputError if there is no such variable or label, or a label is missing. The message names ``key``.
     """
     first, *labels = name.split(".")
     found = run[_known(run, first, key)]
@@ -73,22 +70,10 @@ def table(
 ) -> pd.DataFrame:
     """Return columns of a result as a table: a row for each time, the unit of each column in its header.
 
-    Parameters
-    ----------
-    run
-        A result.
-    names
-        Groups (:data:`GROUPS`), of which columns of zeros are left out, variables, or variables with labels
-        after points.
-    over
-        A joint, whose angle [deg] comes first, or the name of a column; none else.
-    keys
-        Names of both arguments in messages.
-
-    Raises
-    ------
-    InputError
-        The result has no such group, variable or label.
+    ``names``: groups (:data:`GROUPS`), of which columns of zeros are left out, variables, or variables with
+    labels after points; ``over``: a joint, whose angle [deg] comes first, or the name of a column; none else;
+    ``keys``: names of both arguments in messages. Raises InputError if the result has no such group, variable
+    or label.
     """
     import pandas as pd
 

@@ -155,10 +155,7 @@ def _variable(name: str, values: ArrayLike, known: Mapping[str, Variable]) -> xr
 def plain_attribute(value: object) -> str | int | float:
     """Return an attribute value as NetCDF can store it and read it back unchanged.
 
-    Parameters
-    ----------
-    value
-        Text, number, truth value, ``None``, or something JSON can hold.
+    ``value``: text, number, truth value, ``None``, or something JSON can hold.
     """
     if isinstance(value, np.generic):
         value = value.item()

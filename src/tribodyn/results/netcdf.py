@@ -43,10 +43,7 @@ def netcdf_parts(dataset: xr.Dataset) -> tuple[bytes | memoryview, ...]:
     has a checksum, so that anything that reads it sees damage. What describes the arrays has none in this
     format: a checksum of the whole file follows it, for :func:`dataset_of`.
 
-    Parameters
-    ----------
-    dataset
-        Numbers and texts over named dimensions; the attributes are numbers and texts.
+    ``dataset``: numbers and texts over named dimensions; the attributes are numbers and texts.
     """
     # Imported here: a run whose result is not written needs none of its 11 MB.
     import netCDF4
@@ -106,15 +103,8 @@ def _defined(
 def dataset_of(content: bytes) -> xr.Dataset:
     """Return the dataset that a NetCDF-4 file holds; times stay numbers of seconds.
 
-    Parameters
-    ----------
-    content
-        Of a file; one that :func:`netcdf_content` did not make need not end in a checksum.
-
-    Raises
-    ------
-    Exception
-        The file is damaged, or is none. The libraries that read it raise what they like.
+    ``content``: of a file; one that :func:`netcdf_content` did not make need not end in a checksum. Raises
+    Exception if the file is damaged, or is none. The libraries that read it raise what they like.
     """
     netcdf, mark, checksum = content.rpartition(_MARK)
     if mark and len(checksum) == _DIGITS and checksum != _checksum(netcdf):
@@ -173,10 +163,7 @@ def _text_size(variable: netCDF4.Variable[Any], room: int, content: bytes) -> in
 
     A file may name the same long text many times, so they are read a few at a time.
 
-    Raises
-    ------
-    ValueError
-        There are too many to look at.
+    Raises ValueError if there are too many to look at.
     """
     shape = variable.shape
     if math.prod(shape) > MOST_TEXTS:

@@ -69,12 +69,8 @@ def of_part(
     Numbers of one time lie side by side, those of one part far apart: reading one of 80 parts takes about as
     long as reading all.
 
-    Parameters
-    ----------
-    dataset, name, part
-        A variable of shape (n_t, n_parts, ...) and the number of a part.
-    measure
-        Function of such a variable, or of one part of it, that leaves no other dimensions.
+    ``dataset``, ``name``, ``part``: a variable of shape (n_t, n_parts, ...) and the number of a part;
+    ``measure``: function of such a variable, or of one part of it, that leaves no other dimensions.
     """
     if _read.get() is None:
         return measure(column(dataset, name)[:, part])
@@ -99,14 +95,8 @@ def peak(values: FloatArray) -> float:
 def largest(dataset: xr.Dataset, name: str, values: FloatArray) -> float:
     """Return the peak of a quantity, also where it fell between rows.
 
-    Parameters
-    ----------
-    dataset
-        A result; of some quantities it holds the peaks after each reversal.
-    name
-        Name of the quantity in those.
-    values
-        The quantity over time.
+    ``dataset``: a result; of some quantities it holds the peaks after each reversal; ``name``: name of the
+    quantity in those; ``values``: the quantity over time.
     """
     kept = [column(dataset, part) for part in (f"{name}_impact", f"{name}_outside") if part in dataset]
     return peak(np.concatenate([values, *kept]))
@@ -177,12 +167,7 @@ def settled(dataset: xr.Dataset, values: FloatArray) -> FloatArray:
 def sustained(dataset: xr.Dataset, values: FloatArray) -> float:
     """Return the sustained maximum: the size that is exceeded for a hundredth of the time.
 
-    Parameters
-    ----------
-    dataset
-        A result.
-    values
-        Quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
+    ``values``: quantities over its time, shape (n_t,) or (n_t, n): that of the largest is returned.
     """
     time = settled(dataset, column(dataset, "time"))
     found = np.abs(settled(dataset, values).reshape(time.size, -1))

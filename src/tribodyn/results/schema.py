@@ -54,17 +54,8 @@ Kinds = Mapping[str, Mapping[str, Variable]]  #: Content of the results of each 
 def check(dataset: xr.Dataset, kinds: Kinds) -> None:
     """Refuse files that no run and no sweep writes.
 
-    Parameters
-    ----------
-    dataset
-        As it was read; values in memory.
-    kinds
-        What is known of each kind of result.
-
-    Raises
-    ------
-    ValueError
-        Names, dimensions, types or values are not those of a result; the message says which.
+    ``dataset``: as it was read; values in memory; ``kinds``: what is known of each kind of result. Raises
+    ValueError if names, dimensions, types or values are not those of a result; the message says which.
     """
     _check_attributes("the result", dataset.attrs, ATTRIBUTES)
     for name, variable in dataset.variables.items():

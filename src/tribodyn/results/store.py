@@ -69,21 +69,9 @@ def write_run(
 ) -> list[Path]:
     """Write a run; summary and case of an earlier one never remain with its result.
 
-    Parameters
-    ----------
-    dataset
-        A result; ``attrs["case"]`` is the text of the case file.
-    directory
-        Folder to write to; made if missing.
-    summary
-        Its key results.
-    stale
-        What else was made from the earlier result; removed once the new one is on the disk.
-
-    Returns
-    -------
-    list of pathlib.Path
-        The files written.
+    ``dataset``: a result; ``attrs["case"]`` is the text of the case file; ``directory``: folder to write to;
+    made if missing; ``summary``: its key results; ``stale``: what else was made from the earlier result;
+    removed once the new one is on the disk. Returns the files written.
     """
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
@@ -97,13 +85,7 @@ def write_run(
 
 
 def case_text(dataset: xr.Dataset) -> str:
-    """Return the content of ``case.toml``.
-
-    Parameters
-    ----------
-    dataset
-        A result.
-    """
+    """Return the content of ``case.toml``."""
     return str(dataset.attrs.get("case", ""))
 
 
@@ -121,12 +103,7 @@ def finished_case(directory: str | Path) -> str | None:
 def holds_run(directory: str | Path, case: str) -> bool:
     """Return whether a folder holds the finished run of a case, made by the installed versions.
 
-    Parameters
-    ----------
-    directory
-        A folder, which may be missing.
-    case
-        Text of the case.
+    ``directory``: a folder, which may be missing; ``case``: text of the case.
     """
     attributes = _finished(directory) or {}
     return attributes.get("case") == case and attributes.items() >= provenance().items()
@@ -147,22 +124,9 @@ def _finished(directory: str | Path) -> dict[str, Any] | None:
 def read(path: str | Path, kinds: Kinds) -> xr.Dataset:
     """Read a result into memory.
 
-    Parameters
-    ----------
-    path
-        Folder of a run, or a NetCDF file.
-    kinds
-        What is known of each kind of result.
-
-    Returns
-    -------
-    xarray.Dataset
-        As it was written: times stay numbers of seconds.
-
-    Raises
-    ------
-    InputError
-        If there is no result or it cannot be read.
+    ``path``: folder of a run, or a NetCDF file; ``kinds``: what is known of each kind of result. Returns as
+    it was written: times stay numbers of seconds. Raises InputError if there is no result or it cannot be
+    read.
     """
     file = Path(path)
     file = file / RESULT if file.is_dir() else file

@@ -195,12 +195,8 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
 def wear_interval(name: str, part: str, scatter: Mapping[str, Interval]) -> Interval | None:
     """Return the interval of a key result of wear over its value [1]; None for any other number.
 
-    Parameters
-    ----------
-    name, part
-        Of the key result.
-    scatter
-        Least and largest wear of equal joints over that at the rate, by joint and an empty name for all.
+    ``name``, ``part``: of the key result; ``scatter``: least and largest wear of equal joints over that at
+    the rate, by joint and an empty name for all.
     """
     low, high = scatter.get(part, scatter.get("", (1.0, 1.0)))
     if low == high or not (_LIFE.match(name) or _WORN.match(name)):

@@ -24,14 +24,8 @@ _ROUNDING: Final = 1.0e-9
 def wear_rate(dataset: xr.Dataset, surfaces: Surfaces = ..., part: Part = "both") -> float:
     """Return the growth of the largest depth in the last cycle [m]; NaN before one cycle is complete.
 
-    Parameters
-    ----------
-    dataset
-        A result of a system that wears.
-    surfaces
-        Numbers of those that count.
-    part
-        Which partners count.
+    ``dataset``: a result of a system that wears; ``surfaces``: numbers of those that count; ``part``: which
+    partners count.
     """
     held, depth = _worn_depths(dataset, surfaces, part)
     rate = float(depth[-1] - depth[-2]) / float(held[-1] - held[-2])
@@ -41,10 +35,7 @@ def wear_rate(dataset: xr.Dataset, surfaces: Surfaces = ..., part: Part = "both"
 def wear_life(dataset: xr.Dataset, surfaces: Surfaces = ..., part: Part = "both") -> float:
     """Return after how many drive cycles the depth limit is reached, at the last rate.
 
-    Parameters
-    ----------
-    dataset, surfaces, part
-        As for :func:`wear_rate`.
+    ``dataset``, ``surfaces``, ``part``: as for :func:`wear_rate`.
     """
     held, depth = _worn_depths(dataset, surfaces, part)
     left = float(dataset.attrs["wear_depth_limit"]) - float(depth[-1])

@@ -36,15 +36,9 @@ def bounces(bearing: Bearing, names: Iterable[str] = LAWS, *, mass: float = 0.25
 
     Both arrive with the energy that takes them to ``contact.design_pressure`` without damping.
 
-    Parameters
-    ----------
-    bearing
-        The joint. Without a ``contact.restitution`` that of ``rsdc`` at the design pressure is given to all
-        factors.
-    names
-        Names of the laws, all by default.
-    mass
-        Mass of the shaft [kg]; it matters by its speed alone, which meets the least entry velocity.
+    ``bearing``: the joint. Without a ``contact.restitution`` that of ``rsdc`` at the design pressure is given
+    to all factors. ``names``: names of the laws, all by default. ``mass``: mass of the shaft [kg]; it matters
+    by its speed alone, which meets the least entry velocity.
     """
     wanted = bearing.contact.restitution or _own_restitution(bearing)
     for name in names:

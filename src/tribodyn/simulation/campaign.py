@@ -48,12 +48,7 @@ def thinned(cycles: FloatArray, depth: FloatArray) -> tuple[FloatArray, FloatArr
     The latest is always kept. Later ones are added at every jump, so that a long campaign keeps early
     profiles further apart than late ones, never more than :data:`MOST_STAGES`.
 
-    Parameters
-    ----------
-    cycles
-        Cycles at the profiles, shape (n,).
-    depth
-        Depth [m], shape (n, n_z + 2, n_theta).
+    ``cycles``: cycles at the profiles, shape (n,); ``depth``: depth [m], shape (n, n_z + 2, n_theta).
     """
     if cycles.size <= MOST_STAGES:
         return cycles, depth
@@ -98,14 +93,8 @@ class Cycles(Protocol):
     def cycle(self, wear: FloatArray, carried: Carried | None, done: int) -> Cycle:
         """Simulate one cycle with a worn bushing, from the start of a run or from where one ended.
 
-        Parameters
-        ----------
-        wear
-            Depth at the nodes [m].
-        carried
-            Where to continue from.
-        done
-            Cycles of wear behind; below zero before the first one whose wear counts.
+        ``wear``: depth at the nodes [m]; ``carried``: where to continue from; ``done``: cycles of wear
+        behind; below zero before the first one whose wear counts.
         """
         ...
 

@@ -28,14 +28,8 @@ _ARRAYS: Final = ("depth", "load", "stage_cycles", "stage_depth")
 def write(path: Path, worn: Campaign, case: str) -> None:
     """Write a checkpoint whole or not at all.
 
-    Parameters
-    ----------
-    path
-        The file; its folder must exist.
-    worn
-        What the campaign continues from.
-    case
-        Text of the case, by which the campaign is known again.
+    ``path``: the file; its folder must exist; ``worn``: what the campaign continues from; ``case``: text of
+    the case, by which the campaign is known again.
     """
     assert worn.carried is not None
     facts = {

@@ -98,12 +98,8 @@ class Session:
 def of_data(problem: Problem, *more: Any) -> str:
     """Return the hash of all that a run reads: constants, tables, start, times and tolerances.
 
-    Parameters
-    ----------
-    problem
-        Before it is integrated.
-    more
-        What the integrator is given besides: numbers, texts and arrays.
+    ``problem``: before it is integrated; ``more``: what the integrator is given besides: numbers, texts and
+    arrays.
     """
     bounds = problem.t_span, problem.breakpoints, problem.longest_step
     return digest(problem.data, problem.y0, problem.atol, *bounds, *more)

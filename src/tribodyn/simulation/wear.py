@@ -167,16 +167,7 @@ def _by_error(
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """Return the lives by the errors of outputs at the wear of this run, and what is to be said of them.
 
-    Parameters
-    ----------
-    system
-        What wears.
-    run
-        Its run.
-    cycles
-        How many cycles that is.
-    depth
-        What it wore off at the nodes [m].
+    ``system``: what wears; ``cycles``: how many cycles that is; ``depth``: what it wore off at the nodes [m].
     """
     if not _has_cycle(cycles) or not depth.any():
         return {}, []

@@ -40,17 +40,9 @@ LINES: Final = "points.jsonl"  #: File with a line of JSON for each point: its n
 class Archive:
     """Storage of points.
 
-    Parameters
-    ----------
-    directory
-        Folder of the sweep; ``points/`` in it is made when there is a point whose whole result is kept.
-    whole
-        Whether each point keeps its whole result, in a folder of its own.
-
-    Raises
-    ------
-    InputError
-        Something else has the name of that folder.
+    ``directory``: folder of the sweep; ``points/`` in it is made when there is a point whose whole result is
+    kept; ``whole``: whether each point keeps its whole result, in a folder of its own. Raises InputError if
+    something else has the name of that folder.
     """
 
     def __init__(self, directory: Path, *, whole: bool) -> None:

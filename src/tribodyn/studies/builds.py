@@ -174,12 +174,8 @@ def numbers_of_builds(errors: FloatArray) -> FloatArray:
 class Copies:
     """Copies as a population: a polynomial of their inputs for each instant, and what it misses of each copy.
 
-    Parameters
-    ----------
-    laws
-        Of each input: a function of a generator and a size that returns values, mean 0 and deviation 1.
-    inputs, errors
-        Of copies that were simulated, shapes (n, n_inputs) and (n, n_instants).
+    ``laws``: of each input: a function of a generator and a size that returns values, mean 0 and deviation 1;
+    ``inputs``, ``errors``: of copies that were simulated, shapes (n, n_inputs) and (n, n_instants).
     """
 
     def __init__(self, laws: Sequence[Law], inputs: FloatArray, errors: FloatArray) -> None:

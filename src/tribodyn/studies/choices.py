@@ -71,17 +71,9 @@ def _excess(numbers: FloatArray, limits: Sequence[Limit]) -> FloatArray:
 class QuadraticModel:
     """Limited numbers as quadratics of deviations, with the rest as normal noise.
 
-    Parameters
-    ----------
-    scattering, limits
-        What scatters, and what is limited.
-    deviations, numbers
-        Simulated, shapes (n, n_keys) [SI] and (n, n_limits).
-
-    Raises
-    ------
-    TribodynError
-        A number is no quadratic: too much of its spread is missed at points left out.
+    ``scattering``, ``limits``: what scatters, and what is limited; ``deviations``, ``numbers``: simulated,
+    shapes (n, n_keys) [SI] and (n, n_limits). Raises TribodynError if a number is no quadratic: too much of
+    its spread is missed at points left out.
     """
 
     def __init__(
@@ -107,10 +99,7 @@ class QuadraticModel:
     def cheapest(self, probability: float) -> Choice:
         """Return the cheapest choice with a probability; of equally cheap ones the most probable.
 
-        Raises
-        ------
-        TribodynError
-            There is none, or too many would have to be tried.
+        Raises TribodynError if there is none, or too many would have to be tried.
         """
         curves = self._scattering.tolerances[0].curve is not None
         return self._on_curves(probability) if curves else self._of_steps(probability)

@@ -39,21 +39,9 @@ class Tls:
 def cluster(job: SweepJob, address: str, tls: Tls | None = None) -> Finished:
     """Compute points on the workers of a Dask scheduler that runs already.
 
-    Parameters
-    ----------
-    job
-        The points.
-    address
-        Such as ``tcp://10.0.0.1:8786``, or ``tls://10.0.0.1:8786``.
-    tls
-        What the second of these needs, unless Dask's own configuration has it.
-
-    Raises
-    ------
-    InputError
-        Nobody answers at this address, or not whom ``tls`` trusts, or Dask is not installed.
-    TribodynError
-        The scheduler is gone.
+    ``address``: such as ``tcp://10.0.0.1:8786``, or ``tls://10.0.0.1:8786``; ``tls``: what the second of
+    these needs, unless Dask's own configuration has it. Raises InputError if nobody answers at this address,
+    or not whom ``tls`` trusts, or Dask is not installed; TribodynError if the scheduler is gone.
     """
     try:
         import distributed  # noqa: F401

@@ -131,10 +131,7 @@ def real_joints(case: Case) -> dict[str, str]:
 
     Each name has the path of the key that makes it ideal.
 
-    Raises
-    ------
-    InputError
-        It has no outputs, or fewer joints than could share the error.
+    Raises InputError if it has no outputs, or fewer joints than could share the error.
     """
     if not getattr(case, "outputs", None):
         words = "the case has no output whose error could be divided; write one, such as outputs.NAME.body"

@@ -103,10 +103,7 @@ def slopes(
 def numbers_of(dataset: xr.Dataset, name: str) -> FloatArray:
     """Return a key result at all points of a sweep, shape (n_points,).
 
-    Raises
-    ------
-    TribodynError
-        A point failed, or has no such number.
+    Raises TribodynError if a point failed, or has no such number.
     """
     refuse_failures(dataset)
     if name not in dataset:
@@ -178,15 +175,8 @@ def _slopes_of(numbers: FloatArray, name: str, ladders: Sequence[_Ladder]) -> It
 def plateau(tried: FloatArray) -> tuple[int, int]:
     """Return the longest run of neighbouring slopes that agree, the one of least spread among equally long.
 
-    Parameters
-    ----------
-    tried
-        Slopes by step, shape (n_steps,).
-
-    Returns
-    -------
-    tuple of int
-        Its first place, and the one behind its last; equal where fewer than three agree.
+    ``tried``: slopes by step, shape (n_steps,). Returns its first place, and the one behind its last; equal
+    where fewer than three agree.
 
     Examples
     --------

@@ -92,14 +92,7 @@ def save(
 ) -> None:
     """Write all files of a fit.
 
-    Parameters
-    ----------
-    calibration, found, keys
-        The fit.
-    words
-        What the data determine.
-    folder
-        Where files go.
+    ``words``: what the data determine; ``folder``: where files go.
     """
     write_text(folder / CASE, fitted_case(calibration, keys))
     write_text(folder / PAGE, page(calibration, found, keys, words))

@@ -71,10 +71,8 @@ class LeastSquares:
     def covariance(self, *, known_noise: bool = False) -> FloatArray:
         """Return the covariance of the parameters, shape (n, n).
 
-        Parameters
-        ----------
-        known_noise
-            Whether residuals are over the true uncertainty of the data; otherwise their scatter gives it.
+        ``known_noise``: whether residuals are over the true uncertainty of the data; otherwise their scatter
+        gives it.
         """
         inverse = np.linalg.pinv(self.jacobian.T @ self.jacobian)
         return np.asarray((1.0 if known_noise else self.scatter) * inverse)

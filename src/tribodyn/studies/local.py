@@ -33,19 +33,8 @@ _OTHER_HANDLES: Final = 16  #: Handles that starting a process and writing files
 def local(job: SweepJob, workers: int | None) -> Finished:
     """Compute points in processes of this machine, one thread each.
 
-    Parameters
-    ----------
-    job
-        The points.
-    workers
-        How many processes; by default one for each processor.
-
-    Raises
-    ------
-    InputError
-        There are too few handles for a single process.
-    TribodynError
-        Processes die before they compute anything.
+    ``workers``: how many processes; by default one for each processor. Raises InputError if there are too few
+    handles for a single process; TribodynError if processes die before they compute anything.
     """
     size = _affordable(min(workers or platforms.processors(), len(job.points)), job.note)
     fork_server.start(toml=job.points[0].toml)
@@ -144,14 +133,8 @@ def answers(
 ) -> Iterator[tuple[Task, Any]]:
     """Yield tasks and what came of them as they are done.
 
-    Parameters
-    ----------
-    workers
-        Who does them, one at a time each.
-    tasks
-        What is to be done, begun in this order.
-    stop
-        Asked several times a second; when true, what has arrived is still yielded.
+    ``workers``: who does them, one at a time each; ``tasks``: what is to be done, begun in this order;
+    ``stop``: asked several times a second; when true, what has arrived is still yielded.
     """
     waiting = deque(tasks)
     busy: dict[Any, SweepWorker] = {}

@@ -105,10 +105,7 @@ class Measured:
     def noise(self, share: float) -> FloatArray:
         """Return the standard uncertainty of each value, shape (n,).
 
-        Parameters
-        ----------
-        share
-            For curves, over their range, and for numbers without a half width, over their size [1].
+        ``share``: for curves, over their range, and for numbers without a half width, over their size [1].
         """
         return np.concatenate([_noise(part, share) for part in self.parts])
 
@@ -136,17 +133,8 @@ class Experiment:
 def read(path: str | Path, run: xr.Dataset) -> Measured:
     """Return the data of a file, checked against a run.
 
-    Parameters
-    ----------
-    path
-        A CSV file.
-    run
-        A run of the case that they belong to: it has the variables and their units.
-
-    Raises
-    ------
-    InputError
-        The file is no table of curves or numbers, or the run has no such quantity.
+    ``run``: a run of the case that they belong to: it has the variables and their units. Raises InputError if
+    the file is no table of curves or numbers, or the run has no such quantity.
     """
     try:
         content = read_regular(path, LARGEST)

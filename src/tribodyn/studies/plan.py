@@ -121,10 +121,7 @@ def plan_of(case: Case, axes: tuple[Axis, ...], sampling: Sampling = Sampling())
 def varied_key(case: Case, path: str) -> Key:
     """Return the key of a case that shall vary: of a vector, a component.
 
-    Raises
-    ------
-    InputError
-        The case has no such key; the message names the nearest one.
+    Raises InputError if the case has no such key; the message names the nearest one.
     """
     keys = with_components(keys_in(case))
     path = plain_path(path, keys)

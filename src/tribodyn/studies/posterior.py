@@ -61,10 +61,7 @@ class Posterior:
 def sampler_package() -> Any:
     """Return the module emcee.
 
-    Raises
-    ------
-    InputError
-        It is not installed.
+    Raises InputError if it is not installed.
     """
     try:
         return importlib.import_module("emcee")
@@ -79,19 +76,10 @@ def sampler_package() -> Any:
 def sample(calibration: Calibration, found: LeastSquares, steps: int, seed: int = 0) -> Posterior:
     """Sample the posterior distribution around a fit.
 
-    Parameters
-    ----------
-    calibration, found
-        The fit, with its noise.
-    steps
-        Steps of each walker, :data:`LEAST_STEPS` or more; there are two walkers for each key and two more.
-    seed
-        Of the random numbers: the same seed gives the same chain, also after an interruption.
-
-    Raises
-    ------
-    InputError
-        emcee is not installed, or there are too few steps.
+    ``calibration``, ``found``: the fit, with its noise; ``steps``: steps of each walker, :data:`LEAST_STEPS`
+    or more; there are two walkers for each key and two more; ``seed``: of the random numbers: the same seed
+    gives the same chain, also after an interruption. Raises InputError if emcee is not installed, or there
+    are too few steps.
     """
     emcee = sampler_package()
     if steps < LEAST_STEPS:

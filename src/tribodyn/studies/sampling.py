@@ -89,17 +89,8 @@ class Distribution:
     def quantiles(self, arguments: tuple[float, ...], probabilities: FloatArray) -> FloatArray:
         """Return the values below which the given shares of a population lie.
 
-        Parameters
-        ----------
-        arguments
-            As many as :attr:`arguments`, or with all :attr:`optional` ones.
-        probabilities
-            Between 0 and 1, any shape.
-
-        Raises
-        ------
-        DistributionProblem
-            There is no such distribution.
+        ``arguments``: as many as :attr:`arguments`, or with all :attr:`optional` ones; ``probabilities``:
+        between 0 and 1, any shape. Raises DistributionProblem if there is no such distribution.
         """
         counts = {len(self.arguments), len(self.arguments) + len(self.optional)}
         if len(arguments) not in counts:

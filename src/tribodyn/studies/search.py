@@ -110,15 +110,8 @@ class Search:
     def root(self, within: float = WITHIN) -> float:
         """Return a value at which the number keeps the limit, at most so far from where it reaches it, SI.
 
-        Parameters
-        ----------
-        within
-            How far, as a share of the range.
-
-        Raises
-        ------
-        TribodynError
-            The number lies on one side of the limit at both ends, or a run failed.
+        ``within``: how far, as a share of the range. Raises TribodynError if the number lies on one side of
+        the limit at both ends, or a run failed.
         """
         from scipy.optimize import brentq
 
@@ -246,21 +239,9 @@ LISTED: Final = "`tribodyn run` writes those that a case has to summary.json."
 def question(case: Case, vary: str, values: str, until: Limit) -> Question:
     """Return the search, checked.
 
-    Parameters
-    ----------
-    case
-        What is simulated.
-    vary
-        Dotted path of the key that varies.
-    values
-        The range, such as ``"10..60 um"``.
-    until
-        The number and its limit.
-
-    Raises
-    ------
-    InputError
-        There is no such key, it cannot vary over a range, or the range is none.
+    ``case``: what is simulated; ``vary``: dotted path of the key that varies; ``values``: the range, such as
+    ``"10..60 um"``; ``until``: the number and its limit. Raises InputError if there is no such key, it cannot
+    vary over a range, or the range is none.
     """
     return Question(case, *key_range(case, vary, values), until)
 
@@ -268,10 +249,7 @@ def question(case: Case, vary: str, values: str, until: Limit) -> Question:
 def key_range(case: Case, path: str, values: str) -> tuple[Key, float, float]:
     """Return a key of a case and both ends of a range of it, such as ``10..60 um`` [SI].
 
-    Raises
-    ------
-    InputError
-        There is no such key, it cannot vary over a range, or the range is none.
+    Raises InputError if there is no such key, it cannot vary over a range, or the range is none.
     """
     key = varied_key(case, path)
     ends = values.split("..")
@@ -302,10 +280,7 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
 
     A part of the name will do: ``contact_max_N`` is ``contact_force_max_N``, the first with all its words.
 
-    Raises
-    ------
-    InputError
-        There is no such key result, or what follows is no number.
+    Raises InputError if there is no such key result, or what follows is no number.
     """
     name, equals, number = (part.strip() for part in text.partition("="))
     at_least, name = name.endswith(">"), name.rstrip("<> ")
@@ -328,10 +303,7 @@ def limit(text: str, case: Case, option: str, *, least: bool = True) -> Limit:
 def matching(name: str, case: Case, option: str) -> list[str]:
     """Return the key results of a case that a name means: one, or those with all its words.
 
-    Raises
-    ------
-    InputError
-        There is none.
+    Raises InputError if there is none.
     """
     name, known = name_today(name), key_results_of_case(case)
     words = set(name.split("_"))

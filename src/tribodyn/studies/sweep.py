@@ -41,14 +41,8 @@ _LOOKED_AT: Final = 16  #: Points whose estimates stand for all.
 def warnings_of(plan: SweepPlan, to_do: int, workers: int | None) -> list[str]:
     """Return warnings that the points of a sweep take long, or together much memory.
 
-    Parameters
-    ----------
-    plan
-        The sweep.
-    to_do
-        How many of its points are to be computed.
-    workers
-        Processes of this machine, as :class:`~tribodyn.studies.sweep.Means` has them.
+    ``to_do``: how many of its points are to be computed; ``workers``: processes of this machine, as
+    :class:`~tribodyn.studies.sweep.Means` has them.
     """
     n_workers = min(max(processors() if workers is None else workers, 1), max(to_do, 1))
     places = {round(k * (len(plan.points) - 1) / (_LOOKED_AT - 1)) for k in range(_LOOKED_AT)}
@@ -240,12 +234,8 @@ def compute_missing(
 ) -> None:
     """Compute the missing points of a plan, keep each when it arrives, and add the summaries of all.
 
-    Parameters
-    ----------
-    plan, directory, means, watcher
-        As for :func:`run`.
-    summaries
-        Filled by the names of points.
+    ``plan``, ``directory``, ``means``, ``watcher``: as for :func:`run`; ``summaries``: filled by the names of
+    points.
     """
     whole = len(plan.points) <= FEW_POINTS if means.keep_results is None else means.keep_results
     whole = whole and directory is not None

@@ -74,10 +74,7 @@ class Tolerance:
 def standard_width(grade: str, size: float) -> float:
     """Return the width of a grade of ISO 286-1 at a nominal size, both SI.
 
-    Raises
-    ------
-    InputError
-        There is no such grade here, or the size is beyond 500 mm.
+    Raises InputError if there is no such grade here, or the size is beyond 500 mm.
 
     Examples
     --------
@@ -94,11 +91,8 @@ def standard_width(grade: str, size: float) -> float:
 def read_tolerances(path: str | Path, case: Case) -> tuple[Tolerance, ...]:
     """Return the tolerances of a file, checked against a case.
 
-    Raises
-    ------
-    InputError
-        The file is none of these, names no key of the case, has an impossible grade or a cost that rises
-        with the width; the message names the table.
+    Raises InputError if the file is none of these, names no key of the case, has an impossible grade or a
+    cost that rises with the width; the message names the table.
     """
     try:
         tables = files.parse(files.text_of(files.read_regular(path, files.LARGEST)))

@@ -56,18 +56,9 @@ def written(key: Key, value: Value) -> str:
 def variation(key: Key, asked: Asked) -> Variation:
     """Return a user's request for one key.
 
-    Parameters
-    ----------
-    key
-        The key that varies.
-    asked
-        ``"V1,V2,..."``, ``"A:B:STEP"``, ``"normal(MEAN, DEVIATION)"`` or another of
-        :data:`~tribodyn.studies.sampling.DISTRIBUTIONS`; or any values.
-
-    Raises
-    ------
-    InputError
-        It cannot be understood, or a value is not of the kind that the key takes.
+    ``key``: the key that varies; ``asked``: ``"V1,V2,..."``, ``"A:B:STEP"``, ``"normal(MEAN, DEVIATION)"`` or
+    another of :data:`~tribodyn.studies.sampling.DISTRIBUTIONS`; or any values. Raises InputError if it cannot
+    be understood, or a value is not of the kind that the key takes.
     """
     if not isinstance(asked, str):
         return _levels(key, [_plain(value) for value in asked], asked)

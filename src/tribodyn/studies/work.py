@@ -127,12 +127,8 @@ def _simulated(case: Case, keep_result: bool, staging: str, stop: Callable[[], b
 def load(name: str, toml: str, changes: Mapping[str, str]) -> None:
     """Import the packages for points, and load the equations of a case.
 
-    Parameters
-    ----------
-    name, toml
-        The case: a file or a built-in one, or its text. The other is empty.
-    changes
-        Values to change in it, by dotted path.
+    ``name``, ``toml``: the case: a file or a built-in one, or its text. The other is empty. ``changes``:
+    values to change in it, by dotted path.
     """
     import_what_points_need()
     from tribodyn.mechanisms.catalogue import load_case, parse_case

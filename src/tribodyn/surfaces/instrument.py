@@ -21,25 +21,10 @@ def read_instrument(
 ) -> Scan:
     """Return the heights in a file that SurfaceTopography reads.
 
-    Parameters
-    ----------
-    stream
-        An open file.
-    source
-        Its name.
-    length
-        Reads a length with its unit.
-    given
-        Unit and spacing for files that carry none.
-    file_format
-        Name of the format in SurfaceTopography; by default it is found from the file.
-    channel
-        Which of the file's channels of heights, counted from 1.
-
-    Raises
-    ------
-    InputError
-        The extra is missing, the file cannot be read, or lacks or repeats what ``given`` says.
+    ``stream``: an open file; ``length``: reads a length with its unit; ``given``: unit and spacing for files
+    that carry none; ``file_format``: name of the format in SurfaceTopography; by default it is found from the
+    file; ``channel``: which of the file's channels of heights, counted from 1. Raises InputError if the extra
+    is missing, the file cannot be read, or lacks or repeats what ``given`` says.
     """
     try:
         # What the package has to say about itself is not for a user of ours.

@@ -102,12 +102,7 @@ def numbers(surface: MeasuredSurface) -> dict[str, float]:
 def document(surface: MeasuredSurface, others: list[MeasuredSurface]) -> dict[str, Any]:
     """Return the stored data of a surface: numbers, treatment, remarks, and the numbers at other cut-offs.
 
-    Parameters
-    ----------
-    surface
-        The surface.
-    others
-        The same scan with other cut-offs.
+    ``others``: the same scan with other cut-offs.
     """
     return {
         "file": surface.surface.source,

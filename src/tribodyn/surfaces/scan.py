@@ -97,17 +97,8 @@ class Scan:
 def from_columns(x: FloatArray, heights: FloatArray, source: str) -> Scan:
     """Return the profile of points at equal steps; where whole steps were left out heights are missing.
 
-    Parameters
-    ----------
-    x, heights
-        Position and height of every point [m], shape (n,).
-    source
-        File that they come from.
-
-    Raises
-    ------
-    InputError
-        The steps are neither equal nor multiples of one step.
+    ``x``, ``heights``: position and height of every point [m], shape (n,); ``source``: file that they come
+    from. Raises InputError if the steps are neither equal nor multiples of one step.
     """
     if x.size < 2:
         raise InputError("a profile of one point says nothing; more points are needed", source=source)

@@ -25,10 +25,7 @@ _LINES_LOOKED_AT: Final = 64
 def checked(scan: Scan) -> tuple[Scan, list[str]]:
     """Return a scan without empty borders, and what a reader of its numbers should know.
 
-    Raises
-    ------
-    InputError
-        It is too small, flat, full of holes, stepped, or in the wrong unit.
+    Raises InputError if it is too small, flat, full of holes, stepped, or in the wrong unit.
     """
     scan = _cropped(scan)
     _check_size(scan)

@@ -59,17 +59,8 @@ class Block:
 def blocks(stream: BinaryIO, source: str) -> Iterator[Block]:
     """Give the lines of a file.
 
-    Parameters
-    ----------
-    stream
-        An open file.
-    source
-        Its name.
-
-    Raises
-    ------
-    InputError
-        The file is empty or binary, or has a piece as long as a block that no separator divides.
+    ``stream``: an open file. Raises InputError if the file is empty or binary, or has a piece as long as a
+    block that no separator divides.
     """
     number, start, goes_on, rest, more = 1, 0, False, b"", True
     while more:
@@ -123,16 +114,8 @@ _PLAIN: Final = re.compile(r"[\d\s.,;eE+-]*+(?:(?<![+-])nan[\d\s.,;eE+-]*+)*", r
 class Table:
     """Lines of equally many numbers.
 
-    Parameters
-    ----------
-    separator
-        What stands between the fields of a line.
-    width
-        Fields of a line; by default those of the first line.
-    comment
-        Called with comments between the lines.
-    source
-        Name of the file.
+    ``separator``: what stands between the fields of a line; ``width``: fields of a line; by default those of
+    the first line; ``comment``: called with comments between the lines; ``source``: name of the file.
     """
 
     def __init__(
@@ -153,10 +136,8 @@ class Table:
     def add(self, block: Block) -> None:
         """Add the lines of a block.
 
-        Raises
-        ------
-        InputError
-            A field is no number, a line has another number of fields, or there are too many of them.
+        Raises InputError if a field is no number, a line has another number of fields, or there are too many
+        of them.
         """
         if not self._add_at_once(block):
             for line in block.lines():

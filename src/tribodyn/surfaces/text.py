@@ -55,21 +55,9 @@ class Scale:
 def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Scan:
     """Return the surface in a text file.
 
-    Parameters
-    ----------
-    stream
-        An open file.
-    source
-        Its name.
-    length
-        Reads a length with its unit.
-    given
-        Unit and spacing; an error where the file gives them too.
-
-    Raises
-    ------
-    InputError
-        Anything is not as the module says; the message names the line.
+    ``stream``: an open file; ``length``: reads a length with its unit; ``given``: unit and spacing; an error
+    where the file gives them too. Raises InputError if anything is not as the module says; the message names
+    the line.
     """
     every = blocks(stream, source)
     notes, header, separator, first = _head(every, source)

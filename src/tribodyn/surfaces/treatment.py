@@ -23,10 +23,7 @@ def filled(heights: FloatArray) -> FloatArray:
 
     The width of the mean doubles until every hole is reached: a hole takes the nearest heights there are.
 
-    Parameters
-    ----------
-    heights
-        [m], shape (n,) or (n_y, n_x), NaN where missing, known somewhere.
+    ``heights``: [m], shape (n,) or (n_y, n_x), NaN where missing, known somewhere.
     """
     from scipy.ndimage import gaussian_filter
 
@@ -49,12 +46,7 @@ LEVELS: Final[dict[str, int]] = {"mean": 0, "plane": 1, "quadratic": 2}
 def levelled(scan: Scan, level: str) -> Scan:
     """Return a scan less its least-squares polynomial; missing heights have no say.
 
-    Parameters
-    ----------
-    scan
-        Any surface with more heights than the polynomial has terms.
-    level
-        One of ``LEVELS``.
+    ``scan``: any surface with more heights than the polynomial has terms; ``level``: one of ``LEVELS``.
     """
     known = ~np.isnan(scan.heights)
     heights = np.where(known, scan.heights, 0.0)
@@ -118,14 +110,8 @@ FILTERS: Final[dict[str, Smoother]] = {"gaussian": gaussian, "spectral": spectra
 def filtered(scan: Scan, name: str, short: float | None, long: float | None) -> Scan:
     """Return the waves of a scan between two lengths.
 
-    Parameters
-    ----------
-    scan
-        A levelled surface.
-    name
-        One of ``FILTERS``.
-    short, long
-        Shortest and longest wavelength kept [m]; None keeps all.
+    ``name``: one of ``FILTERS``; ``short``, ``long``: shortest and longest wavelength kept [m]; None keeps
+    all.
     """
     smooth = FILTERS[name]
     if long is not None:

@@ -138,14 +138,8 @@ class ValidationSet:
     ) -> list[FloatArray]:
         """Return columns of numbers of a CSV file of the set.
 
-        Parameters
-        ----------
-        file, names
-            The file and the names of the columns.
-        where
-            Name of another column and the text that it must hold.
-        every
-            Every so many of the rows is taken.
+        ``file``, ``names``: the file and the names of the columns; ``where``: name of another column and the
+        text that it must hold; ``every``: every so many of the rows is taken.
         """
         rows = [row for row in self.rows(file) if where is None or row[where[0]] == where[1]]
         return [np.array([float(row[name]) for row in rows[::every]]) for name in names]
@@ -170,10 +164,7 @@ class ValidationSet:
 def load(name: str) -> ValidationSet:
     """Return a set by name.
 
-    Raises
-    ------
-    InputError
-        There is no set of this name.
+    Raises InputError if there is no set of this name.
     """
     if name not in NAMES:
         raise InputError(f"{as_given(name)}; allowed: {', '.join(NAMES)}{meant(name, NAMES)}", key="NAME")
@@ -254,17 +245,8 @@ def sides_of(values: FloatArray, ends: Iterable[FloatArray]) -> FloatArray:
 
     An input that only lowers a value widens its interval below and not above.
 
-    Parameters
-    ----------
-    values
-        Shape (n,).
-    ends
-        For each input the values at other inputs, shape (m, n).
-
-    Returns
-    -------
-    FloatArray
-        Shape (2, n).
+    ``values``: shape (n,); ``ends``: for each input the values at other inputs, shape (m, n). Returns shape
+    (2, n).
     """
     squares = np.zeros((2, *values.shape))
     for found in ends:
@@ -276,12 +258,8 @@ def sides_of(values: FloatArray, ends: Iterable[FloatArray]) -> FloatArray:
 def varied(compute: Callable[[Mapping[str, float]], FloatArray], inputs: Iterable[Input]) -> Varied:
     """Return values of a function at inputs and at the ends of their bands, one input at a time.
 
-    Parameters
-    ----------
-    compute
-        From inputs by name [SI] to values, shape (n,).
-    inputs
-        The inputs; those without a band keep their value.
+    ``compute``: from inputs by name [SI] to values, shape (n,); ``inputs``: the inputs; those without a band
+    keep their value.
     """
     known = list(inputs)
     given = {one.name: one.value for one in known}

@@ -157,10 +157,7 @@ class Rig(ValidationSet):
 def rig(path: str | Path, case: Case, assumed: tuple[VariedKey, ...]) -> Rig:
     """Return a user's set from its file.
 
-    Raises
-    ------
-    InputError
-        The file is no table of numbers, or a band cannot be understood.
+    Raises InputError if the file is no table of numbers, or a band cannot be understood.
     """
     try:
         content = read_regular(path, LARGEST)
@@ -296,10 +293,7 @@ drive_power_mean_W,226,5,,,example without a band: reported only,
 def write_template(folder: Path) -> None:
     """Write README and table of a new set into a folder; files that are there already are kept.
 
-    Raises
-    ------
-    InputError
-        One of them is there already.
+    Raises InputError if one of them is there already.
     """
     there = [name for name in TEMPLATE if (folder / name).exists()]
     if there:

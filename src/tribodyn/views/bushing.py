@@ -35,12 +35,8 @@ def wall_angles(dataset: xr.Dataset) -> FloatArray:
 def best_cut(theta: FloatArray, load: FloatArray) -> float:
     """Return the angle [deg] of :data:`CUTS` with no load around it, or else any with the least at it.
 
-    Parameters
-    ----------
-    theta
-        Angles [rad], shape (n_theta,).
-    load
-        What should not be cut, at each angle, shape (n_theta,).
+    ``theta``: angles [rad], shape (n_theta,); ``load``: what should not be cut, at each angle, shape
+    (n_theta,).
     """
     size = np.nan_to_num(np.abs(load))
 
@@ -59,15 +55,7 @@ def best_cut(theta: FloatArray, load: FloatArray) -> float:
 def shares(frames: FloatArray) -> FloatArray:
     """Return the largest share that each angle ever has of the peak of its frame: what may be seen there.
 
-    Parameters
-    ----------
-    frames
-        Fields, shape (n, n_theta, n_z).
-
-    Returns
-    -------
-    array
-        Shape (n_theta,), from 0 to 1.
+    ``frames``: fields, shape (n, n_theta, n_z). Returns shape (n_theta,), from 0 to 1.
     """
     size = np.nan_to_num(np.abs(frames))
     peaks = size.max(axis=(1, 2), keepdims=True, initial=0.0)
@@ -78,20 +66,10 @@ def shares(frames: FloatArray) -> FloatArray:
 def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray, FloatArray]:
     """Return angles [deg] growing from ``cut`` once around, and the field in that order.
 
-    Parameters
-    ----------
-    theta
-        Angles [rad], shape (n_theta,).
-    field
-        Values, shape (n_theta, ...).
-    cut
-        Where the bushing is cut open [deg].
-
-    Returns
-    -------
-    tuple of arrays
-        Shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes again at the end. Of a surface
-        that is not all around, as a wall, angles begin behind its gap, and no point comes again.
+    ``theta``: angles [rad], shape (n_theta,); ``field``: values, shape (n_theta, ...); ``cut``: where the
+    bushing is cut open [deg]. Returns shapes (n_theta + 1,) and (n_theta + 1, ...): the first point comes
+    again at the end. Of a surface that is not all around, as a wall, angles begin behind its gap, and no
+    point comes again.
     """
     gaps = np.diff(np.sort(theta), append=theta.min() + 2.0 * np.pi)
     if theta.size > 2 and gaps.max() > _GAP:
@@ -108,18 +86,9 @@ def rolled(theta: FloatArray, field: FloatArray, cut: float) -> tuple[FloatArray
 def unloaded_middle(dataset: xr.Dataset, field: FloatArray) -> float:
     """Return the height [mm] below which nothing happens: a long empty middle is shown shortened.
 
-    Parameters
-    ----------
-    dataset
-        A result with ``z`` [m].
-    field
-        What is to be shown, shape (n_theta, n_z).
-
-    Returns
-    -------
-    float
-        Nothing above a hundredth of the peak lies at smaller distances from the middle; 0 where the empty
-        part is less than half of the bushing.
+    ``dataset``: a result with ``z`` [m]; ``field``: what is to be shown, shape (n_theta, n_z). Returns
+    nothing above a hundredth of the peak lies at smaller distances from the middle; 0 where the empty part is
+    less than half of the bushing.
     """
     distance = np.abs(dataset["z"].values) * 1e3
     loaded = distance[field.max(axis=0) > 0.01 * field.max(initial=0.0)]
@@ -131,13 +100,8 @@ def unloaded_middle(dataset: xr.Dataset, field: FloatArray) -> float:
 def shortened(z: FloatArray, empty: float, half: float) -> FloatArray:
     """Return the places of heights when the middle ``|z| < empty`` gets an eighth of the room.
 
-    Parameters
-    ----------
-    z
-        Heights, any shape.
-    empty, half
-        Where the middle ends and where the bushing ends, in the unit of ``z``; an ``empty`` of 0 leaves the
-        heights as they are.
+    ``z``: heights, any shape; ``empty``, ``half``: where the middle ends and where the bushing ends, in the
+    unit of ``z``; an ``empty`` of 0 leaves the heights as they are.
     """
     bend = (half - empty) / 7.0 if empty else 0.0
     near = z * (bend / empty) if empty else z
@@ -232,16 +196,9 @@ class Unrolled:
     ) -> Payload:
         """Return the data of the script ``field``: fields in 255 steps of their own peaks.
 
-        Parameters
-        ----------
-        fields
-            In their unit, shape (n, n_theta, n_z).
-        label, unit
-            What they are.
-        usual
-            Returns the end of the common scale of colours from the peaks, shape (n,).
-        stages
-            What each field is of; empty where they follow the playback.
+        ``fields``: in their unit, shape (n, n_theta, n_z); ``label``, ``unit``: what they are; ``usual``:
+        returns the end of the common scale of colours from the peaks, shape (n,); ``stages``: what each field
+        is of; empty where they follow the playback.
         """
         rows = np.moveaxis(self.turned(np.moveaxis(fields, 1, 0)), 0, 2)
         steps, peaks = quantised(rows)
@@ -262,16 +219,9 @@ def unrolled(
 ) -> Unrolled:
     """Return the bushing of a result, cut where it is not loaded, a long empty middle shortened.
 
-    Parameters
-    ----------
-    dataset
-        A result with ``theta`` [rad] and ``z`` [m].
-    fields
-        What is to be shown, shape (n, n_theta, n_z).
-    load
-        What should not be cut, at each angle, shape (n_theta,); by default the largest of the fields.
-    theta
-        Angles of the nodes [rad], shape (n_theta,); by default those of the wall.
+    ``dataset``: a result with ``theta`` [rad] and ``z`` [m]; ``fields``: what is to be shown, shape (n,
+    n_theta, n_z); ``load``: what should not be cut, at each angle, shape (n_theta,); by default the largest
+    of the fields; ``theta``: angles of the nodes [rad], shape (n_theta,); by default those of the wall.
     """
     theta = wall_angles(dataset) if theta is None else theta
     envelope = np.max(fields, axis=0, initial=0.0)

@@ -41,19 +41,8 @@ def thinned(x: FloatArray, y: FloatArray, most: int = MOST) -> tuple[FloatArray,
     The curve is cut into stretches of equally many points; of each, the first, the last, the smallest and the
     largest are kept. Where a stretch holds a gap (NaN), one NaN is kept too.
 
-    Parameters
-    ----------
-    x
-        Increasing, shape (n,).
-    y
-        Shape (n,).
-    most
-        At least 5.
-
-    Returns
-    -------
-    tuple of arrays
-        Both of shape (m,), in the order of ``x``.
+    ``x``: increasing, shape (n,); ``y``: shape (n,); ``most``: at least 5. Returns both of shape (m,), in the
+    order of ``x``.
     """
     if x.size <= most:
         return x, y
@@ -74,19 +63,8 @@ def straightened(x: FloatArray, y: FloatArray, tolerance: float) -> tuple[FloatA
     Peucker 1973, along y). Ends, and points at gaps (NaN), stay. Of a curve that is not
     straight every 64th point stays, too: half the time for a thirtieth more points.
 
-    Parameters
-    ----------
-    x
-        Increasing, shape (n,).
-    y
-        Shape (n,).
-    tolerance
-        What a line may miss, in the unit of ``y``.
-
-    Returns
-    -------
-    tuple of arrays
-        Both of shape (m,), in the order of ``x``.
+    ``x``: increasing, shape (n,); ``y``: shape (n,); ``tolerance``: what a line may miss, in the unit of
+    ``y``. Returns both of shape (m,), in the order of ``x``.
     """
     gap = np.concatenate([[True], ~np.isfinite(y), [True]])
     kept = gap[:-2] | gap[1:-1] | gap[2:]
@@ -177,12 +155,8 @@ class Panel:
     def ordinate(self, time: FloatArray, turns: FloatArray, settling: float) -> tuple[list[float], str]:
         """Return the ordinate that impacts or the first sample do not set, and a note on what lies beyond.
 
-        Parameters
-        ----------
-        time
-            Times [s], shape (n_t,).
-        turns, settling
-            Times of reversals, and how long impacts last after them [s].
+        ``time``: times [s], shape (n_t,); ``turns``, ``settling``: times of reversals, and how long impacts
+        last after them [s].
         """
         values = np.array([curve.values for curve in self.curves if curve.values.shape == time.shape])
         if values.size == 0 or time.size < _FEW:

@@ -24,10 +24,7 @@ def in_common(results: Sequence[xr.Dataset]) -> tuple[list[xr.Dataset], str]:
     Runs that begin alike are cut to the time of the shortest. Where some continue another run and others do
     not, the last whole drive cycles are taken and the impacts after those reversals that all of them hold.
 
-    Parameters
-    ----------
-    results
-        Results, whole or partial.
+    ``results``: results, whole or partial.
     """
     whole = list(results)
     known = all("reversal_time" in result and result.attrs.keys() >= _NEEDED for result in whole)
@@ -159,12 +156,8 @@ BUSHING: Final = (
 def overlays(planned: Sequence[Overlay], runs: Mapping[str, xr.Dataset]) -> tuple[Section, ...]:
     """Return the figures of a comparison as sections.
 
-    Parameters
-    ----------
-    planned
-        What is to be shown.
-    runs
-        Results by the name of their run. A quantity is shown of those that hold it.
+    ``planned``: what is to be shown. ``runs``: results by the name of their run. A quantity is shown of those
+    that hold it.
     """
     return tuple(
         Section(

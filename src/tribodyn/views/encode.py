@@ -31,12 +31,8 @@ class Packed:
 def packed(values: ArrayLike, kind: str = "float32") -> Packed:
     """Return an array as pages hold it: flattened, of a kind that scripts know.
 
-    Parameters
-    ----------
-    values
-        Numbers of any shape.
-    kind
-        ``float32`` (7 digits: enough to draw), ``float64`` (times) or ``uint8`` (pictures).
+    ``values``: numbers of any shape; ``kind``: ``float32`` (7 digits: enough to draw), ``float64`` (times) or
+    ``uint8`` (pictures).
     """
     return Packed(np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<")).reshape(-1))
 
@@ -44,12 +40,8 @@ def packed(values: ArrayLike, kind: str = "float32") -> Packed:
 def stepped(values: ArrayLike, finest: float) -> Packed:
     """Return a curve in equal steps of its own range, in 16 bits where that is fine enough, else in 32.
 
-    Parameters
-    ----------
-    values
-        Numbers of any shape. What is not finite becomes NaN, which is the highest code.
-    finest
-        Longest step allowed, in the unit of the values.
+    ``values``: numbers of any shape. What is not finite becomes NaN, which is the highest code. ``finest``:
+    longest step allowed, in the unit of the values.
     """
     given = np.asarray(values, dtype=np.float64).reshape(-1)
     finite = given[np.isfinite(given)]
@@ -64,15 +56,8 @@ def stepped(values: ArrayLike, finest: float) -> Packed:
 def quantised(fields: NDArray[np.floating[Any]]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """Return pictures in 255 steps of their own largest value, and these largest values.
 
-    Parameters
-    ----------
-    fields
-        Values that are not negative, shape (n, ...); NaN counts as zero.
-
-    Returns
-    -------
-    steps, largest
-        Shapes of ``fields`` and (n,): ``steps / 255 * largest`` is the field again, to half a step.
+    ``fields``: values that are not negative, shape (n, ...); NaN counts as zero. Returns shapes of ``fields``
+    and (n,): ``steps / 255 * largest`` is the field again, to half a step.
     """
     clean = np.nan_to_num(fields)
     largest = clean.reshape(clean.shape[0], -1).max(axis=1, initial=0.0)
@@ -86,20 +71,9 @@ def block(header: Mapping[str, Any]) -> tuple[int, bytes]:
     Arrays begin at multiples of eight bytes, so that a browser views them where they are; equal ones, such as
     the times of all curves, stand there once.
 
-    Parameters
-    ----------
-    header
-        What a page reads. Arrays in it, at any depth, become their kind with offset and length.
-
-    Returns
-    -------
-    length, content
-        Length of the header in bytes, and all bytes.
-
-    Raises
-    ------
-    TypeError
-        Something in the header is no text, number, list, mapping or array.
+    ``header``: what a page reads. Arrays in it, at any depth, become their kind with offset and length.
+    Returns length of the header in bytes, and all bytes. Raises TypeError if something in the header is no
+    text, number, list, mapping or array.
     """
     offsets: dict[bytes, int] = {}
     size = 0

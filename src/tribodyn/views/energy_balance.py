@@ -39,14 +39,8 @@ def energy_columns(
 ) -> dict[str, FloatArray]:
     """Return the columns of energy balances and their residuals [J], each of shape (n_t,).
 
-    Parameters
-    ----------
-    rows
-        Observed quantities by name.
-    terms
-        Origin of each column.
-    balances
-        The balances of these columns.
+    ``rows``: observed quantities by name; ``terms``: origin of each column; ``balances``: the balances of
+    these columns.
     """
     columns = {name: term.column(rows) for name, term in terms.items()}
     return columns | {balance.residual: balance.left_over(columns) for balance in balances}
@@ -79,12 +73,7 @@ class EnergyBalance:
 
         Where the balance met a state that cannot be, it is not a number.
 
-        Parameters
-        ----------
-        columns
-            With the residual.
-        least
-            Energy below which no term counts as large [J].
+        ``columns``: with the residual; ``least``: energy below which no term counts as large [J].
         """
         # np.max keeps what is not a number; max would lose it.
         whole = np.max([least, *(_largest(columns[name]) for name in self.measure)])

@@ -75,16 +75,8 @@ def smooth_limits(
 ) -> tuple[float, float] | None:
     """Return an ordinate that fits the smooth motion, where impacts would flatten it; otherwise nothing.
 
-    Parameters
-    ----------
-    time
-        Times [s], shape (n_t,).
-    values
-        What is drawn, shape (..., n_t).
-    turns
-        Reversal times [s].
-    impact_time
-        How long impacts last after the start and each of them [s].
+    ``time``: times [s], shape (n_t,); ``values``: what is drawn, shape (..., n_t); ``turns``: reversal times
+    [s]; ``impact_time``: how long impacts last after the start and each of them [s].
     """
     smooth = np.ones(time.shape, dtype=bool)
     for turn in (0.0, *turns):

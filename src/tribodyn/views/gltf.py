@@ -64,14 +64,8 @@ class _File:
 def gltf(solids: Sequence[Solid], times: FloatArray, up: str) -> bytes:
     """Return the content of a file with the extension ``.glb``.
 
-    Parameters
-    ----------
-    solids
-        At least one.
-    times
-        Of their positions [s], increasing from 0, shape (n_t,).
-    up
-        Axis of the drawing that points upwards, ``y`` or ``z``.
+    ``solids``: at least one; ``times``: of their positions [s], increasing from 0, shape (n_t,); ``up``: axis
+    of the drawing that points upwards, ``y`` or ``z``.
     """
     file = _File()
     time = file.add(times)

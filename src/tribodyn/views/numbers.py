@@ -73,12 +73,8 @@ def fitting(unit: str, values: Iterable[object]) -> tuple[str, float]:
 def in_words(value: object, digits: int = 4) -> str:
     """Return a value for the page: no computer notation, counts in groups of three.
 
-    Parameters
-    ----------
-    value
-        A number, or anything else, which is shown as its text.
-    digits
-        How many significant digits are shown, four at most.
+    ``value``: a number, or anything else, which is shown as its text; ``digits``: how many significant digits
+    are shown, four at most.
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
         return str(value)

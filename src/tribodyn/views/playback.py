@@ -75,19 +75,9 @@ def dense_times(time: FloatArray, values: FloatArray, rates: FloatArray, toleran
 
     A straight line misses a cubic by at most step × |difference of the end rates| / 8 to leading order.
 
-    Parameters
-    ----------
-    time
-        Times of the rows [s], increasing, shape (n_t,), at least two.
-    values, rates
-        At the rows, shape (n_t, n), and their derivatives [1/s]; both finite.
-    tolerance
-        What a line may miss, in the unit of the values.
-
-    Returns
-    -------
-    FloatArray
-        Times [s], increasing.
+    ``time``: times of the rows [s], increasing, shape (n_t,), at least two; ``values``, ``rates``: at the
+    rows, shape (n_t, n), and their derivatives [1/s]; both finite; ``tolerance``: what a line may miss, in
+    the unit of the values. Returns times [s], increasing.
     """
     step = np.diff(time)
     miss = np.linalg.norm(np.diff(values, axis=0) - step[:, None] * rates[:-1], axis=1)
@@ -104,10 +94,7 @@ _SHOWN: Final = 0.35  #: Clearance as a scene first shows it, over the radius of
 def magnification(ratio: float) -> dict[str, Any]:
     """Return the range of the magnification and where it begins: round numbers.
 
-    Parameters
-    ----------
-    ratio
-        Radius of the shaft over its clearance.
+    ``ratio``: radius of the shaft over its clearance.
     """
     first = _SHOWN * ratio
     digit = 10.0 ** np.floor(np.log10(first))

@@ -65,14 +65,8 @@ OVER_TIME: Final = (
 def choice(widget: str, label: str, parts: Mapping[str, Payload | None]) -> Payload | None:
     """Return the data of the script ``choice``; nothing where there is nothing to choose.
 
-    Parameters
-    ----------
-    widget
-        Script that draws each of them.
-    label
-        What is chosen.
-    parts
-        What that script reads, by name.
+    ``widget``: script that draws each of them; ``label``: what is chosen; ``parts``: what that script reads,
+    by name.
     """
     there = {name: part for name, part in parts.items() if part is not None}
     if not there:
@@ -88,10 +82,7 @@ _LEAST: Final = 1.0  #: Range of an angle over which a chart is of use [deg].
 def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:
     """Return the label of a joint's angle and its values within one turn [deg], NaN where a turn ends.
 
-    Raises
-    ------
-    InputError
-        There is no such joint.
+    Raises InputError if there is no such joint.
     """
     names = [str(name) for name in dataset["joint"].values] if "joint_angle" in dataset else []
     if joint not in names:
@@ -107,12 +98,7 @@ def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:
 def coordinates(dataset: xr.Dataset, scale: float) -> list[dict[str, Any]]:
     """Return angles of joints over time, those of driven joints first, as the page reads them.
 
-    Parameters
-    ----------
-    dataset
-        A result.
-    scale
-        Of the times of the page.
+    ``scale``: of the times of the page.
     """
     if "joint_angle" not in dataset or "drive_moment" not in dataset:
         return []

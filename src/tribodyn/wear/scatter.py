@@ -18,10 +18,7 @@ _LEVEL: Final = 0.95
 def of_repeats(repeats: Sequence[float]) -> tuple[float, float]:
     """Return the interval of the wear of one more equal part over the geometric mean of repeats [1].
 
-    Parameters
-    ----------
-    repeats
-        Wear of equal parts, two or more numbers above zero in any one unit.
+    ``repeats``: wear of equal parts, two or more numbers above zero in any one unit.
     """
     from scipy.special import stdtrit
 

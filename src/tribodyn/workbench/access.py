@@ -95,14 +95,8 @@ class Endpoint:
 class AccessControl(Router):
     """Passes to the application only requests from the page of this server.
 
-    Parameters
-    ----------
-    endpoint
-        Address of the server.
-    session
-        Session of the user.
-    application
-        Answers requests that pass.
+    ``endpoint``: address of the server; ``session``: session of the user; ``application``: answers requests
+    that pass.
     """
 
     def __init__(self, endpoint: Endpoint, session: UserSession, application: Application) -> None:

@@ -33,15 +33,9 @@ class Track:
 def track(key: Key, value: float | None, lowest: float | None = None) -> Track | None:
     """Return the track of a number; None for what is no number, and where nothing says how large it may be.
 
-    Parameters
-    ----------
-    key
-        What the number is of.
-    value
-        Its value (SI); None where none is given, and the example of the key says how large it may be.
-    lowest
-        Value (SI) below which a run makes no sense; a slider begins at the next step above it, or at the
-        value itself where that is less.
+    ``key``: what the number is of; ``value``: its value (SI); None where none is given, and the example of
+    the key says how large it may be; ``lowest``: value (SI) below which a run makes no sense; a slider begins
+    at the next step above it, or at the value itself where that is less.
     """
     if key.kind not in ("quantity", "number", "count"):
         return None

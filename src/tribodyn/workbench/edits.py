@@ -22,17 +22,8 @@ _NAMED: Final = {"between": "bodies", "body": "bodies", "joint": "joints"}
 def edited(origin: Origin, edit: Edit) -> Origin:
     """Return the case that a page has edited, as where its runs come from.
 
-    Parameters
-    ----------
-    origin
-        The case of the workbench.
-    edit
-        What differs.
-
-    Raises
-    ------
-    InputError
-        There is no such template or table, a key names a file, or the model is invalid.
+    ``origin``: the case of the workbench; ``edit``: what differs. Raises InputError if there is no such
+    template or table, a key names a file, or the model is invalid.
     """
     if edit == Edit():
         return origin

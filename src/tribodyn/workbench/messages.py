@@ -92,10 +92,7 @@ Message: TypeAlias = RunRequest | Drawn | Cancel | Pin | Sweep | SlopeRequest
 def parsed(text: str | bytes) -> Message:
     """Return the message that a page sent.
 
-    Raises
-    ------
-    InvalidMessage
-        It has no known kind, or its fields are invalid.
+    Raises InvalidMessage if it has no known kind, or its fields are invalid.
     """
     if isinstance(text, bytes):
         raise InvalidMessage("a message is text")
@@ -215,10 +212,7 @@ _START: Final = struct.Struct("<IIII")
 def body(header: Mapping[str, Any]) -> bytes:
     """Return all of a frame but its first sixteen bytes, after the length of its header.
 
-    Parameters
-    ----------
-    header
-        What the page reads. Arrays in it, at any depth, become their kind with offset and length.
+    ``header``: what the page reads. Arrays in it, at any depth, become their kind with offset and length.
     """
     length, content = block(header)
     return struct.pack("<I", length) + content

@@ -64,14 +64,8 @@ def _same(one: RunRequest, other: RunRequest) -> bool:
 class PageSession:
     """Serves one page.
 
-    Parameters
-    ----------
-    state
-        Shared by all pages.
-    send
-        Sends text or bytes to the page, without waiting.
-    log_error
-        Called with internal errors.
+    ``state``: shared by all pages; ``send``: sends text or bytes to the page, without waiting; ``log_error``:
+    called with internal errors.
     """
 
     def __init__(self, state: ServerState, send: Send, log_error: Callable[[str], None]) -> None:

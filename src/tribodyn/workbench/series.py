@@ -41,14 +41,7 @@ class SeriesPlan:
 class Series:
     """Runs that are made one after the other while no other job waits.
 
-    Parameters
-    ----------
-    state
-        State of the server.
-    plan
-        What is run.
-    report
-        Sends a message to the page.
+    ``state``: state of the server; ``plan``: what is run; ``report``: sends a message to the page.
     """
 
     def __init__(self, state: ServerState, plan: SeriesPlan, report: Report) -> None:
@@ -139,10 +132,7 @@ def _along(state: ServerState, origin: Origin, path: str, values: Values) -> _Al
 def sweep_of(state: ServerState, origin: Origin, asked: Sweep) -> SeriesPlan:
     """Plan a sweep of a case that a page shows.
 
-    Raises
-    ------
-    InputError
-        There is nothing to sweep over.
+    Raises InputError if there is nothing to sweep over.
     """
     along = _along(state, origin, asked.key, asked.values)
     variants = along.variants(_levels(along.key, asked))
@@ -188,10 +178,7 @@ def _written(key: Key, number: float) -> str:
 def slope_of(state: ServerState, origin: Origin, asked: SlopeRequest) -> SeriesPlan:
     """Plan to find the slope at the present value of a key.
 
-    Raises
-    ------
-    InputError
-        The value is no number, or zero.
+    Raises InputError if the value is no number, or zero.
     """
     along = _along(state, origin, asked.key, asked.values)
     middle = shown_number(along.key, origin.varied(asked.values).case.at(along.key.path))
@@ -212,10 +199,7 @@ def slopes(points: Sequence[Point]) -> dict[str, dict[str, float]]:
     The straight line of least squares through all points; numbers that a point lacks, or that are zero on
     average, have none.
 
-    Parameters
-    ----------
-    points
-        With ``value`` and ``results``.
+    ``points``: with ``value`` and ``results``.
     """
     names = set.intersection(*(set(point["results"]) for point in points)) if points else set()
     names -= EFFORT.keys()

@@ -55,15 +55,7 @@ def listening(port: int) -> list[socket.socket]:
 
     Had somebody else the other address, browsers might take it for ours.
 
-    Parameters
-    ----------
-    port
-        0 stands for any that is free.
-
-    Raises
-    ------
-    InputError
-        The port cannot be had.
+    ``port``: 0 stands for any that is free. Raises InputError if the port cannot be had.
     """
     for attempt in range(1, _ATTEMPTS + 1):
         (first,) = _bound(port, ADDRESS, socket.AF_INET)
@@ -101,20 +93,9 @@ async def attended(
 ) -> None:
     """Serve one person until ``stop`` is true.
 
-    Parameters
-    ----------
-    origin
-        The case.
-    listeners
-        From :func:`listening`.
-    size
-        How many workers.
-    opened
-        Called with the address when the server listens; it holds the token.
-    stop
-        Asked several times a second.
-    log_error
-        Called with internal errors.
+    ``listeners``: from :func:`listening`; ``size``: how many workers; ``opened``: called with the address
+    when the server listens; it holds the token; ``stop``: asked several times a second; ``log_error``: called
+    with internal errors.
     """
     chosen = rules or Rules()
     port, name = listeners[0].getsockname()[1], own_name()

@@ -46,10 +46,7 @@ class Origin:
     def varied(self, values: Mapping[str, str]) -> Variant:
         """Return the case with other values.
 
-        Raises
-        ------
-        InputError
-            A value cannot be, or names a file.
+        Raises InputError if a value cannot be, or names a file.
         """
         faults = Faults()
         for path in values:
@@ -153,12 +150,8 @@ _SIDES: Final = (1, -1)
 def neighbours(origin: Origin, values: Values, before: Values) -> Iterator[dict[str, str]]:
     """Yield the values one step to either side, for the key that was turned last.
 
-    Parameters
-    ----------
-    origin
-        The case of the workbench.
-    values, before
-        Values of the last request and of the one before.
+    ``origin``: the case of the workbench; ``values``, ``before``: values of the last request and of the one
+    before.
     """
     turned = [path for path in {**before, **values} if values.get(path) != before.get(path)]
     keys = turnable(origin.case)

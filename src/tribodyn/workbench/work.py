@@ -48,19 +48,9 @@ class Interrupted(Exception):
 def picture(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
     """Run a case and return the body of its frame.
 
-    Parameters
-    ----------
-    case
-        What is run.
-    order
-        With ``header``, which is copied into the header of the frame.
-    progress, stop
-        As for :func:`tribodyn.simulate`.
-
-    Raises
-    ------
-    Interrupted
-        ``stop`` was true before the end.
+    ``case``: what is run; ``order``: with ``header``, which is copied into the header of the frame;
+    ``progress``, ``stop``: as for :func:`tribodyn.simulate`. Raises Interrupted if ``stop`` was true before
+    the end.
     """
     began = time.perf_counter()
     found = shown(_simulated(case, progress, stop))
@@ -132,14 +122,8 @@ WORK: Final = {"picture": picture, "result.nc": result, "report.html": report}  
 def reply(limits: Limits, message: bytes, connection: Connection) -> bytes | None:
     """Return the reply to an order; no exception leaves this function but those that end processes.
 
-    Parameters
-    ----------
-    limits
-        What this process may take.
-    message
-        The order, or :data:`STOP`, to which there is no reply.
-    connection
-        Takes events, and has a message waiting when the work is to stop.
+    ``limits``: what this process may take; ``message``: the order, or :data:`STOP`, to which there is no
+    reply; ``connection``: takes events, and has a message waiting when the work is to stop.
     """
     if message == STOP:
         return None

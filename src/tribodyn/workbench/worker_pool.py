@@ -55,10 +55,7 @@ class Job:
 class PoolWorker(WorkerProcess):
     """A worker process that makes frames and files of cases.
 
-    Parameters
-    ----------
-    limits
-        What it may take.
+    ``limits``: what it may take.
     """
 
     def __init__(self, limits: Limits) -> None:
@@ -83,12 +80,7 @@ class PoolWorker(WorkerProcess):
 class WorkerPool:
     """A fixed number of workers and the jobs that wait for them.
 
-    Parameters
-    ----------
-    size
-        Number of processes.
-    limits
-        What each may take.
+    ``size``: number of processes; ``limits``: what each may take.
     """
 
     def __init__(self, size: int, limits: Limits) -> None:
@@ -103,10 +95,7 @@ class WorkerPool:
     async def start(self) -> None:
         """Start the processes.
 
-        Raises
-        ------
-        TribodynError
-            A process cannot be started.
+        Raises TribodynError if a process cannot be started.
         """
         loop = asyncio.get_running_loop()
         for _ in range(self.size):
@@ -131,12 +120,7 @@ class WorkerPool:
     async def do(self, job: Job) -> bytes:
         """Return the result of a job.
 
-        Raises
-        ------
-        Failed
-            It has none.
-        GivenUp
-            It was stopped.
+        Raises Failed if it has none; GivenUp if it was stopped.
         """
         async with self._woken:
             (self.later if job.background else self.waiting).append(job)

@@ -61,16 +61,9 @@ class Algebra(Protocol):
 class _Kept:
     """The last finite Jacobian, in whatever form it is evaluated.
 
-    Parameters
-    ----------
-    jacobian
-        ``jacobian(t, y)``.
-    mass
-        Mass matrix, sparse, shape (n, n).
-    algebraic
-        Which equations have no derivatives, shape (n,): step and β do not multiply their Jacobian.
-    typical
-        Size of each variable at which its relative tolerance is as large as the absolute one, shape (n,).
+    ``jacobian``: ``jacobian(t, y)``; ``mass``: mass matrix, sparse, shape (n, n); ``algebraic``: which
+    equations have no derivatives, shape (n,): step and β do not multiply their Jacobian; ``typical``: size of
+    each variable at which its relative tolerance is as large as the absolute one, shape (n,).
     """
 
     def __init__(
@@ -215,13 +208,9 @@ class Sparse(_Kept):
 def by_bands(packed: FloatArray, lower: int, upper: int) -> tuple[Solution | None, int]:
     """Return the solver of a banded matrix, ``None`` if it is singular, and the sign of its determinant.
 
-    Parameters
-    ----------
-    packed
-        Its diagonals as LAPACK has them, shape (2 lower + upper + 1, n): entry (i, j) in row
-        lower + upper + i − j and column j; destroyed.
-    lower, upper
-        Numbers of diagonals below and above the main one.
+    ``packed``: its diagonals as LAPACK has them, shape (2 lower + upper + 1, n): entry (i, j) in row lower +
+    upper + i − j and column j; destroyed; ``lower``, ``upper``: numbers of diagonals below and above the main
+    one.
     """
     banded, pivots, singular = lapack.dgbtrf(packed, lower, upper, overwrite_ab=True)
     if singular:

@@ -15,14 +15,8 @@ MOST: Final = 1e-4  #: Length of a jump, at most, as a share of the time to the 
 class MebdfDenseOutput(DenseOutput):
     """Newton's polynomial through the newest value and the differences of the last accepted step.
 
-    Parameters
-    ----------
-    t_old, t
-        Begin and end of the step.
-    step
-        Signed size to which the differences belong.
-    differences
-        At the end of the step, shape (degree + 1, n); they are copied.
+    ``t_old``, ``t``: begin and end of the step; ``step``: signed size to which the differences belong;
+    ``differences``: at the end of the step, shape (degree + 1, n); they are copied.
     """
 
     def __init__(self, t_old: float, t: float, step: float, differences: FloatArray) -> None:
@@ -54,12 +48,7 @@ class JumpDenseOutput(DenseOutput):
     SciPy locates events by single times and needs the values before the jump at the beginning of the step,
     where it has seen them. Arrays of times are output times: they get the values behind the jump.
 
-    Parameters
-    ----------
-    t_old, t
-        Begin and end of the step.
-    before, after
-        Values, shape (n,) each.
+    ``t_old``, ``t``: begin and end of the step; ``before``, ``after``: values, shape (n,) each.
     """
 
     def __init__(self, t_old: float, t: float, before: FloatArray, after: FloatArray) -> None:

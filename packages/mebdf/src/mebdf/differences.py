@@ -30,12 +30,8 @@ class Differences(Protocol):
     def __call__(self, rates: Rates, y: FloatArray, f: FloatArray) -> Any:
         """Return the Jacobian at ``y``, shape (n, n).
 
-        Parameters
-        ----------
-        rates
-            Right-hand sides, shape (n, m), of m states, shape (n, m).
-        y, f
-            State and its right-hand side, shape (n,) each: the moves go where it goes.
+        ``rates``: right-hand sides, shape (n, m), of m states, shape (n, m); ``y``, ``f``: state and its
+        right-hand side, shape (n,) each: the moves go where it goes.
         """
         ...
 
@@ -52,12 +48,8 @@ def typical_sizes(rtol: FloatArray, atol: FloatArray, *, algebraic: bool = False
     magnify that without bound: moves of its variables near zero are those of the size at which both
     tolerances are equal, as far as the absolute tolerance allows.
 
-    Parameters
-    ----------
-    rtol, atol
-        Relative and absolute tolerance of each variable, shape (n,) each; ``rtol`` at least 100 roundings.
-    algebraic
-        Whether some equations have no derivatives.
+    ``rtol``, ``atol``: relative and absolute tolerance of each variable, shape (n,) each; ``rtol`` at least
+    100 roundings; ``algebraic``: whether some equations have no derivatives.
     """
     if algebraic:
         return np.asarray(atol * np.minimum(1.0 / rtol, 1.0 / LEAST))
@@ -67,10 +59,7 @@ def typical_sizes(rtol: FloatArray, atol: FloatArray, *, algebraic: bool = False
 class DenseDifferences:
     """Those of SciPy's own solvers, but for the shortest move.
 
-    Parameters
-    ----------
-    typical
-        Sizes below which those of the variables do not shrink their moves, shape (n,).
+    ``typical``: sizes below which those of the variables do not shrink their moves, shape (n,).
     """
 
     def __init__(self, typical: FloatArray) -> None:
@@ -89,12 +78,7 @@ class DenseDifferences:
 class DifferencesOfTerms:
     """Differences of equations of which some are zero all along: their terms show how large a move must be.
 
-    Parameters
-    ----------
-    differences
-        Which moves they heed.
-    algebraic
-        Which equations have no derivatives, shape (n,).
+    ``differences``: which moves they heed; ``algebraic``: which equations have no derivatives, shape (n,).
     """
 
     def __init__(self, differences: Differences, algebraic: NDArray[np.bool_]) -> None:
@@ -119,12 +103,8 @@ def plain_jacobian(
 
     Entries that do not rise above the rounding of their equation at the first move are those of the second.
 
-    Parameters
-    ----------
-    fun
-        Right-hand side ``fun(t, y)``, shape (n,).
-    typical
-        Sizes below which those of the variables do not shrink the first moves, shape (n,).
+    ``fun``: right-hand side ``fun(t, y)``, shape (n,); ``typical``: sizes below which those of the variables
+    do not shrink the first moves, shape (n,).
     """
 
     def columns(t: float, y: FloatArray, f: FloatArray, moves: FloatArray) -> FloatArray:
@@ -158,12 +138,8 @@ class GroupedDifferences:
 
     Their moves heed the rounding that the last ones met, as those of SciPy's own solvers.
 
-    Parameters
-    ----------
-    pattern
-        Where entries may differ from zero: compressed columns of these alone, shape (n, n).
-    typical
-        Sizes below which those of the variables do not shrink their moves, shape (n,).
+    ``pattern``: where entries may differ from zero: compressed columns of these alone, shape (n, n);
+    ``typical``: sizes below which those of the variables do not shrink their moves, shape (n,).
 
     Attributes
     ----------

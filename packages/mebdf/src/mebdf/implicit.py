@@ -39,16 +39,9 @@ Pair = tuple[FloatArray, FloatArray]
 class Residual:
     """F(t, y, y') with the slope at which it is evaluated, called as a right-hand side is: it returns −F.
 
-    Parameters
-    ----------
-    fun
-        ``fun(t, y, slope)``, shape (n,).
-    slope
-        y' at the start, shape (n,).
-    jac
-        ``jac(t, y, slope)`` gives ∂F/∂y and ∂F/∂y', each of shape (n, n); ``None`` for differences.
-    n
-        Number of equations.
+    ``fun``: ``fun(t, y, slope)``, shape (n,); ``slope``: y' at the start, shape (n,); ``jac``: ``jac(t, y,
+    slope)`` gives ∂F/∂y and ∂F/∂y', each of shape (n, n); ``None`` for differences; ``n``: number of
+    equations.
     """
 
     def __init__(self, fun: Callable[..., Any], slope: ArrayLike, jac: Any, n: int) -> None:
@@ -82,14 +75,8 @@ class Residual:
     def linearise(self, t: float, y: FloatArray, typical: FloatArray, h: float) -> Pair:
         """Return −∂F/∂y and ∂F/∂y'.
 
-        Parameters
-        ----------
-        t, y
-            Where.
-        typical
-            Size of each variable below which it is as good as zero, shape (n,).
-        h
-            Time in which a variable of that size comes about.
+        ``t``, ``y``: where; ``typical``: size of each variable below which it is as good as zero, shape (n,);
+        ``h``: time in which a variable of that size comes about.
         """
         if self._jac is not None:
             pair = [
@@ -137,10 +124,7 @@ class Residual:
     def explicit(self, mass: FloatArray) -> Function:
         """Return f of M y' = f(t, y), which agrees with F = 0 beside the present slope to first order.
 
-        Parameters
-        ----------
-        mass
-            M = ∂F/∂y' there, shape (n, n).
+        ``mass``: M = ∂F/∂y' there, shape (n, n).
         """
         slope = self.slope.copy()
 
@@ -171,16 +155,8 @@ class Residual:
 
         The slope is changed, and of the values those combinations that ∂F/∂y' does not hold.
 
-        Parameters
-        ----------
-        t, y
-            Start, and values as given, shape (n,).
-        h
-            Time that is left.
-        tolerances
-            Relative and absolute tolerance of each value.
-        names
-            Names of the values.
+        ``t``, ``y``: start, and values as given, shape (n,); ``h``: time that is left; ``tolerances``:
+        relative and absolute tolerance of each value; ``names``: names of the values.
         """
         rtol, atol = tolerances
         scale, new = atol + rtol * np.abs(y), y.copy()
@@ -214,12 +190,8 @@ class Residual:
 class ImplicitFull(Full):
     """LU decomposition of LAPACK where the mass matrix changes with the Jacobian.
 
-    Parameters
-    ----------
-    pair
-        ``pair(t, y)``: −∂F/∂y and ∂F/∂y', shape (n, n) each.
-    typical
-        As for :class:`mebdf.algebra.Full`.
+    ``pair``: ``pair(t, y)``: −∂F/∂y and ∂F/∂y', shape (n, n) each; ``typical``: as for
+    :class:`mebdf.algebra.Full`.
     """
 
     def __init__(self, pair: Callable[[float, FloatArray], Pair], typical: FloatArray) -> None:

@@ -37,17 +37,10 @@ class CheckedJacobian:
     Newton's iteration with −J contracts only for steps below a third of the fastest time constant, so
     a wrong sign would cost steps by the ten thousand. One that is too large makes all corrections tiny.
 
-    Parameters
-    ----------
-    given, differences
-        ``jacobian(t, y)`` of shape (n, n).
-    fun
-        Right-hand side ``fun(t, y)``.
-    threshold
-        Size of each component below which it is as good as zero, shape (n,).
-    progress
-        Returns the number of Jacobians so far, and whether steps fail so often that a comparison is worth its
-        three evaluations.
+    ``given``, ``differences``: ``jacobian(t, y)`` of shape (n, n); ``fun``: right-hand side ``fun(t, y)``;
+    ``threshold``: size of each component below which it is as good as zero, shape (n,); ``progress``: returns
+    the number of Jacobians so far, and whether steps fail so often that a comparison is worth its three
+    evaluations.
 
     Attributes
     ----------

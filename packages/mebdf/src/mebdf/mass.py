@@ -104,16 +104,9 @@ def algebraic_variables(matrix: Any) -> NDArray[np.bool_]:
 def read_mass(mass: Any, index: ArrayLike | None, test_algebraic: bool | None, n: int) -> MassMatrix | None:
     """Check a user's mass matrix; ``None`` without one.
 
-    Parameters
-    ----------
-    mass
-        Shape (n, n), dense or sparse, or its diagonal, shape (n,); or ``None``.
-    index
-        Index of each variable, 1 to 3, shape (n,); ``None`` for 1.
-    test_algebraic
-        Whether algebraic variables are in the error test; ``None`` for those of index 1.
-    n
-        Number of equations.
+    ``mass``: shape (n, n), dense or sparse, or its diagonal, shape (n,); or ``None``; ``index``: index of
+    each variable, 1 to 3, shape (n,); ``None`` for 1; ``test_algebraic``: whether algebraic variables are in
+    the error test; ``None`` for those of index 1; ``n``: number of equations.
     """
     if mass is None:
         if index is not None or test_algebraic is not None:

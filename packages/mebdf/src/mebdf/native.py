@@ -34,14 +34,8 @@ _address_in.restype, _address_in.argtypes = ctypes.c_void_p, [ctypes.py_object, 
 class Native:
     """A compiled function ``void f(double t, double *y, double *out, double *data)``.
 
-    Parameters
-    ----------
-    function
-        With its address and signature.
-    shape
-        Shape of ``out``, which holds zeros before, row by row.
-    data
-        Numbers that it is given.
+    ``function``: with its address and signature; ``shape``: shape of ``out``, which holds zeros before, row
+    by row; ``data``: numbers that it is given.
     """
 
     def __init__(self, function: LowLevelCallable, shape: tuple[int, ...], data: FloatArray) -> None:
@@ -62,16 +56,9 @@ class Native:
 def native(function: Any, shape: tuple[int, ...], start: tuple[float, Any], data: FloatArray | None) -> Any:
     """Return a compiled function as a `Native`, another as a function of (t, y), and anything else as it is.
 
-    Parameters
-    ----------
-    function
-        `scipy.LowLevelCallable`, or what numba's ``cfunc`` or ``njit`` has made.
-    shape
-        Shape of its result.
-    start
-        Time and state, shape (n,), for which a function of numba is tried.
-    data
-        Numbers that it is given, ``None`` for none.
+    ``function``: `scipy.LowLevelCallable`, or what numba's ``cfunc`` or ``njit`` has made; ``shape``: shape
+    of its result; ``start``: time and state, shape (n,), for which a function of numba is tried; ``data``:
+    numbers that it is given, ``None`` for none.
     """
     numbers = np.zeros(0) if data is None else data
     if isinstance(function, LowLevelCallable):
@@ -138,18 +125,10 @@ def _c_function(function: Any, shape: tuple[int, ...], n: int, size: int | None)
 class Ahead:
     """The loop over steps in compiled code, some steps ahead of the solver.
 
-    Parameters
-    ----------
-    fun, jac
-        Compiled functions; ``jac`` is ``None`` where Python evaluates the Jacobian.
-    differenced
-        Whether the Jacobian comes from differences.
-    typical
-        Size below which that of a variable does not shrink its moves in differences, shape (n,).
-    algebraic
-        Which equations have no derivatives, shape (n,).
-    at_once
-        Steps of the loop for one of the solver.
+    ``fun``, ``jac``: compiled functions; ``jac`` is ``None`` where Python evaluates the Jacobian;
+    ``differenced``: whether the Jacobian comes from differences; ``typical``: size below which that of a
+    variable does not shrink its moves in differences, shape (n,); ``algebraic``: which equations have no
+    derivatives, shape (n,); ``at_once``: steps of the loop for one of the solver.
     """
 
     def __init__(
@@ -192,12 +171,8 @@ class Ahead:
     def step(self, state: MebdfState, answer: Callable[[int], None]) -> Step | None:
         """Return the next step, ``None`` where the core gave up.
 
-        Parameters
-        ----------
-        state
-            The integration, which is ahead of it.
-        answer
-            ``answer(request)`` answers a request of the core that compiled code cannot.
+        ``state``: the integration, which is ahead of it; ``answer``: ``answer(request)`` answers a request of
+        the core that compiled code cannot.
         """
         if self._next == self._taken and not self._walk(state, answer):
             return None

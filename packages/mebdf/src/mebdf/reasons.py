@@ -16,14 +16,8 @@ def reason(
 ) -> str:
     """Return the reason of a failure: what went wrong, and in which state.
 
-    Parameters
-    ----------
-    state
-        After ``resume`` has returned FAILED.
-    names
-        Names of the states.
-    entry_not_finite
-        Tells row and column of the first entry of the Jacobian that is not finite.
+    ``state``: after ``resume`` has returned FAILED; ``names``: names of the states; ``entry_not_finite``:
+    tells row and column of the first entry of the Jacobian that is not finite.
     """
     if state.number("reason") == phases.JACOBIAN_NOT_FINITE:
         row, column = entry_not_finite(state)

@@ -35,19 +35,8 @@ NOTES: Final[dict[str, tuple[str, ...]]] = {
 def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -> Problem:
     """Return a problem that is solved by an analysis instead of an integration.
 
-    Parameters
-    ----------
-    problem, assembly
-        The mechanism.
-    analysis
-        ``static``, ``kinematic`` or ``vibrations``.
-    turn
-        When the drives turn back [s]; infinite where they do not.
-
-    Raises
-    ------
-    InputError
-        The mechanism does not allow this analysis.
+    ``analysis``: ``static``, ``kinematic`` or ``vibrations``; ``turn``: when the drives turn back [s];
+    infinite where they do not. Raises InputError if the mechanism does not allow this analysis.
     """
     if analysis == "kinematic":
         require_motion(assembly)

@@ -45,14 +45,8 @@ class IdealOutputs:
 def ideal_outputs(assembly: Assembly, outputs: Sequence[Output], path: DrivePath) -> IdealOutputs:
     """Return the outputs as they are with ideal joints.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, without findings.
-    outputs
-        To be evaluated.
-    path
-        The times, n_t of them.
+    ``assembly``: the mechanism, without findings; ``outputs``: to be evaluated; ``path``: the times, n_t of
+    them.
     """
     n_t = path.times.size
     unknown = np.full((n_t, 1), np.nan)
@@ -86,21 +80,10 @@ def compared(
 ) -> tuple[dict[str, FloatArray], tuple[str, ...]]:
     """Return the columns of outputs, each of shape (n_t, n_outputs), and notes.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, without findings.
-    outputs
-        At least one.
-    path
-        Times of the motion, n_t of them.
-    motion
-        Of the mechanism with clearance.
-    moved
-        Gives the angle or the position that a joint had in the run, shape (n_t,).
-    at_rest
-        Gives the states of the ideal mechanism where its forces balance, shape (n, 13 n_bodies); None where
-        the mechanism is not at rest.
+    ``assembly``: the mechanism, without findings; ``outputs``: at least one; ``path``: times of the motion,
+    n_t of them; ``motion``: of the mechanism with clearance; ``moved``: gives the angle or the position that
+    a joint had in the run, shape (n_t,); ``at_rest``: gives the states of the ideal mechanism where its
+    forces balance, shape (n, 13 n_bodies); None where the mechanism is not at rest.
     """
     ideal, notes = _at_the_same_place(assembly, outputs, path, moved, at_rest)
     real = [output.components(motion) for output in outputs]
@@ -184,12 +167,7 @@ def _driven_as(assembly: Assembly, times: FloatArray, joints: Mapping[str, Float
 class IdealMechanism:
     """The ideal counterpart of a mechanism, which is led through given times.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism.
-    play
-        Whether backlash of elements remains.
+    ``play``: whether backlash of elements remains.
 
     Attributes
     ----------
@@ -279,12 +257,8 @@ class IdealMechanism:
 def motion_of(states: FloatArray, forward: FloatArray | float = 1.0) -> Motion:
     """Return states as a motion.
 
-    Parameters
-    ----------
-    states
-        Of the bodies, angular velocities in global axes, shape (n_t, 13 n_bodies).
-    forward
-        Direction of the motion, 1 or −1, shape (n_t,) or one number.
+    ``states``: of the bodies, angular velocities in global axes, shape (n_t, 13 n_bodies); ``forward``:
+    direction of the motion, 1 or −1, shape (n_t,) or one number.
     """
     parts = states.reshape(len(states), states.shape[1] // N_STATES, N_STATES)
     sign = np.broadcast_to(forward, len(states))[:, None, None]

@@ -26,10 +26,8 @@ from tribodyn.mechanism.assembly.positions import DrivePath, walked
 def require_motion(assembly: Assembly) -> None:
     """Refuse a mechanism whose drives prescribe no motion, or one that ideal joints cannot follow.
 
-    Raises
-    ------
-    InputError
-        There is no drive by angle, position, speed or velocity; or clearances must take a misfit.
+    Raises InputError if there is no drive by angle, position, speed or velocity; or clearances must take a
+    misfit.
     """
     if not any(System(assembly.model.counterpart).drive_rows()):
         words = (
@@ -55,16 +53,8 @@ def follow_drives(
 ) -> Solution:
     """Return the motion of a mechanism of ideal joints along its drives, with its reactions.
 
-    Parameters
-    ----------
-    assembly
-        Of ideal joints.
-    problem
-        The same.
-    times
-        Rising, from 0 [s], shape (n_t,).
-    picture_times, progress
-        As for :func:`tribodyn.mechanism.assembly.positions.walked`.
+    ``assembly``: of ideal joints; ``times``: rising, from 0 [s], shape (n_t,); ``picture_times``,
+    ``progress``: as for :func:`tribodyn.mechanism.assembly.positions.walked`.
     """
     found = IdealMechanism(assembly).follow(times)
     states = in_body_axes(found)
@@ -80,19 +70,8 @@ def follow_drives(
 def velocity_ratios(assembly: Assembly, outputs: Sequence[Output], times: FloatArray) -> FloatArray:
     """Return the rates of outputs for a unit rate of each drive, the others at rest.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism.
-    outputs
-        Of it.
-    times
-        Rising, from 0 [s], shape (n_t,).
-
-    Returns
-    -------
-    numpy.ndarray
-        In the units of output and drive, shape (n_t, n_outputs, n_drives); NaN where joints do not close.
+    ``outputs``: of it; ``times``: rising, from 0 [s], shape (n_t,). Returns in the units of output and drive,
+    shape (n_t, n_outputs, n_drives); NaN where joints do not close.
     """
     mechanism = IdealMechanism(assembly)
     rows = mechanism.system.drive_rows()

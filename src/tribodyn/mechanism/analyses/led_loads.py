@@ -55,14 +55,8 @@ def developed(data: MechanismData, model: Model, slip: float) -> MechanismData:
 class LedLoads(JointLoads):
     """The loads on bodies whose drives are led along, by compiled solutions.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism.
-    ideal_rank
-        Number of independent constraints of its ideal counterpart.
-    slip
-        Slip velocity at which friction is developed [m/s], where that of a joint is not less.
+    ``ideal_rank``: number of independent constraints of its ideal counterpart; ``slip``: slip velocity at
+    which friction is developed [m/s], where that of a joint is not less.
     """
 
     def __init__(self, assembly: Assembly, ideal_rank: int, slip: float) -> None:

@@ -62,12 +62,8 @@ class LinearEquations:
 class Linearised:
     """Moves a mechanism at rest to where its forces balance, and linearises its equations there.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, without findings.
-    times
-        Of positions at which its drives and loads are held [s], rising, shape (n_t,).
+    ``assembly``: the mechanism, without findings; ``times``: of positions at which its drives and loads are
+    held [s], rising, shape (n_t,).
 
     Attributes
     ----------

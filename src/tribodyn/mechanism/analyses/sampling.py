@@ -89,12 +89,8 @@ class Loop:
     def output(self, t: float, y: FloatArray, law: Any) -> float:
         """Return the values held from now on [N, N m].
 
-        Parameters
-        ----------
-        t, y
-            Time [s] and state.
-        law
-            Coordinate of the joint, with its rate; see ``kernels.mechanism.data.Law``.
+        ``t``, ``y``: time [s] and state; ``law``: coordinate of the joint, with its rate; see
+        ``kernels.mechanism.data.Law``.
         """
         raise NotImplementedError
 

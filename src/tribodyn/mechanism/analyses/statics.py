@@ -39,10 +39,7 @@ _NEAR: Final = 0.1
 def require_equilibria(assembly: Assembly) -> None:
     """Refuse a mechanism that has no static equilibrium whatever the position.
 
-    Raises
-    ------
-    InputError
-        Ideal joints cannot follow the drives, or an oil film carries a joint.
+    Raises InputError if ideal joints cannot follow the drives, or an oil film carries a joint.
     """
     require_closing(assembly)
     require_no_film(assembly)
@@ -69,16 +66,8 @@ def find_equilibria(
 ) -> Solution:
     """Return the equilibria at positions along the drives.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism.
-    turn
-        When the drives turn back [s]; infinite where they do not.
-    problem
-        The same mechanism.
-    times, picture_times, progress
-        As for :func:`tribodyn.mechanism.assembly.positions.walked`.
+    ``turn``: when the drives turn back [s]; infinite where they do not; ``times``, ``picture_times``,
+    ``progress``: as for :func:`tribodyn.mechanism.assembly.positions.walked`.
     """
     path = DrivePath(times, turn)
     equilibria = Equilibria(assembly, path)
@@ -100,12 +89,8 @@ def find_equilibria(
 class Middle:
     """Leads the mechanism of ideal joints, whose freedoms are at rest where forces balance.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism with its clearances; backlash of elements remains.
-    times
-        Of positions at which drives and loads are held [s], rising, shape (n_t,).
+    ``assembly``: the mechanism with its clearances; backlash of elements remains; ``times``: of positions at
+    which drives and loads are held [s], rising, shape (n_t,).
 
     Attributes
     ----------
@@ -123,16 +108,9 @@ class Middle:
     def at(self, t: float, ideal: FloatArray, *, anew: bool, must: bool = False) -> FloatArray | None:
         """Return the state at a time of the drives [s], shape (n_bodies, 13).
 
-        Parameters
-        ----------
-        t
-            Time [s].
-        ideal
-            The state as drives lead it, freedoms at rest, shape (n_bodies, 13).
-        anew
-            Whether to begin there instead of at the state before.
-        must
-            Whether there is no state where no rest is found; else it is the one from which it was searched.
+        ``t``: time [s]; ``ideal``: the state as drives lead it, freedoms at rest, shape (n_bodies, 13);
+        ``anew``: whether to begin there instead of at the state before; ``must``: whether there is no state
+        where no rest is found; else it is the one from which it was searched.
         """
         system, centred = self._leader.system, self.linear.system
         state = np.zeros(ideal.size)
@@ -153,17 +131,8 @@ class Middle:
 def at_rest(assembly: Assembly, path: DrivePath) -> FloatArray:
     """Return the states of the ideal mechanism without play at rest where forces balance.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism.
-    path
-        Times of the positions, n_t of them.
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (n, 13 n_bodies), n positions from the first on at which joints close.
+    ``path``: times of the positions, n_t of them. Returns shape (n, 13 n_bodies), n positions from the first
+    on at which joints close.
     """
     without_play = replace(assembly, model=assembly.model.without_play)
     times, where = np.unique(path.of_drives, return_inverse=True)

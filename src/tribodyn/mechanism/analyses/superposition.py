@@ -96,21 +96,9 @@ def superposed(
 ) -> FloatArray:
     """Return the errors of outputs that the displacements of each joint cause by themselves.
 
-    Parameters
-    ----------
-    mechanism
-        The ideal counterpart.
-    outputs
-        To be evaluated, along a direction, about an axis, or a distance.
-    times
-        Rising, from 0 [s], shape (n_t,).
-    displaced
-        Displacement and rotation of the shaft by the numbers of joints, shape (n_t, n_causes, 6) each.
-
-    Returns
-    -------
-    numpy.ndarray
-        In the units of the outputs, shape (n_t, n_outputs, n_joints, n_causes).
+    ``outputs``: to be evaluated, along a direction, about an axis, or a distance; ``times``: rising, from 0
+    [s], shape (n_t,); ``displaced``: displacement and rotation of the shaft by the numbers of joints, shape
+    (n_t, n_causes, 6) each. Returns in the units of the outputs, shape (n_t, n_outputs, n_joints, n_causes).
     """
     system = mechanism.system
     rows = {k: [i for i, (number, _) in enumerate(system.rows) if number == k] for k in displaced}
@@ -137,21 +125,10 @@ def responses(
 ) -> FloatArray:
     """Return the rates of outputs for given rates of the constraints.
 
-    Parameters
-    ----------
-    mechanism
-        The ideal mechanism; while ``asked`` is called its bodies are at that position.
-    outputs
-        To be evaluated.
-    times
-        Rising, from 0 [s], shape (n_t,).
-    asked
-        Returns the rates at the position with a number, shape (n_rows, m).
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (n_t, n_outputs, m); NaN from where joints do not close.
+    ``mechanism``: the ideal mechanism; while ``asked`` is called its bodies are at that position;
+    ``outputs``: to be evaluated; ``times``: rising, from 0 [s], shape (n_t,); ``asked``: returns the rates at
+    the position with a number, shape (n_rows, m). Returns shape (n_t, n_outputs, m); NaN from where joints do
+    not close.
     """
     states, system = mechanism.follow(times), mechanism.system
     moved: list[FloatArray] = []

@@ -53,10 +53,8 @@ def without_friction(case: MechanismCase) -> MechanismCase:
 def require_freedom(assembly: Assembly) -> None:
     """Refuse a mechanism that cannot vibrate.
 
-    Raises
-    ------
-    InputError
-        No degree of freedom is left, ideal joints cannot follow the drives, or an oil film carries a joint.
+    Raises InputError if no degree of freedom is left, ideal joints cannot follow the drives, or an oil film
+    carries a joint.
     """
     if assembly.freedoms == 0:
         words = (
@@ -78,16 +76,8 @@ def find_rest(
 ) -> Solution:
     """Return positions at rest with drives and loads held as at some times.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, without friction.
-    problem
-        The same.
-    times
-        Rising, from 0 [s], shape (n_t,).
-    picture_times, progress
-        As for :func:`tribodyn.mechanism.assembly.positions.walked`.
+    ``assembly``: the mechanism, without friction; ``times``: rising, from 0 [s], shape (n_t,);
+    ``picture_times``, ``progress``: as for :func:`tribodyn.mechanism.assembly.positions.walked`.
     """
     path = DrivePath(times)
     at_rest = replace(problem, data=held(problem.data, times))
@@ -171,16 +161,8 @@ class Vibrations:
 def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: int) -> Vibrations:
     """Return frequencies, damping and shapes of modes at positions at rest.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, without friction.
-    times
-        Of its drives [s], shape (n_t,).
-    found
-        Rows at these positions.
-    most
-        Number of modes that are kept, those of the lowest natural frequency.
+    ``assembly``: the mechanism, without friction; ``times``: of its drives [s], shape (n_t,); ``found``: rows
+    at these positions; ``most``: number of modes that are kept, those of the lowest natural frequency.
     """
     position, orientation = found.bodies["position"], found.bodies["orientation"]
     mechanism, n = Linearised(assembly, times), position.shape[1]

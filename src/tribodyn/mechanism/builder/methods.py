@@ -93,10 +93,8 @@ class BuilderMethod:
     def values(self, *arguments: str, **keys: object) -> tuple[str, dict[str, object]]:
         """Return the name of the table and its keys, from the arguments of a call.
 
-        Raises
-        ------
-        TypeError
-            There are too many arguments, one is given twice, or one that is needed is missing.
+        Raises TypeError if there are too many arguments, one is given twice, or one that is needed is
+        missing.
         """
         names = [name for name, _, _ in self.arguments]
         if len(arguments) > len(names):

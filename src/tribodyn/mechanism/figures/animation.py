@@ -35,12 +35,7 @@ def moving(dataset: xr.Dataset, times: FloatArray) -> tuple[Skeleton, FloatArray
 class MechanismFilm:
     """A figure that shows the mechanism at one of some times.
 
-    Parameters
-    ----------
-    dataset
-        A result.
-    times
-        Times that may be shown [s], shape (n_t,).
+    ``times``: times that may be shown [s], shape (n_t,).
     """
 
     def __init__(self, dataset: xr.Dataset, times: FloatArray) -> None:

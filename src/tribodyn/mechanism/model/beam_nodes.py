@@ -97,15 +97,8 @@ def of_rigid(values: Mapping[str, Value]) -> dict[str, Value]:
 def with_nodes(values: dict[str, Value]) -> dict[str, Value]:
     """Return the values of a case in which nodes and pieces have taken the place of elastic bodies.
 
-    Parameters
-    ----------
-    values
-        By dotted path [SI].
-
-    Raises
-    ------
-    InputError
-        Something is beyond the ends of the beam that it names, or a body has keys of a rigid one.
+    ``values``: by dotted path [SI]. Raises InputError if something is beyond the ends of the beam that it
+    names, or a body has keys of a rigid one.
     """
     found = values
     for name in elastic_keys(values).values():

@@ -54,10 +54,7 @@ class PairKeys(NamedGroup):
 def check_film(joint: Any) -> None:
     """Refuse an oil film that the kernels of the film do not describe; the keys are those of its joint.
 
-    Raises
-    ------
-    InputError
-        If the joint is not a pin that turns in a round bore.
+    Raises InputError if the joint is not a pin that turns in a round bore.
     """
     key, clearance = "film.viscosity", joint.clearance
     words = "an oil film is in the bore of a pin: a clearance with radius, radial and length is needed"

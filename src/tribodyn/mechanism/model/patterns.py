@@ -157,19 +157,9 @@ def with_copies(
 ) -> tuple[dict[str, Value], list[str]]:
     """Return the values and tables of a case in which copies have taken the place of what patterns repeat.
 
-    Parameters
-    ----------
-    values
-        By dotted path [SI].
-    tables
-        Paths of tables that are there.
-    keys
-        All keys that there are with these.
-
-    Raises
-    ------
-    InputError
-        A pattern overlaps itself or another one, or repeats what is not there.
+    ``values``: by dotted path [SI]; ``tables``: paths of tables that are there; ``keys``: all keys that there
+    are with these. Raises InputError if a pattern overlaps itself or another one, or repeats what is not
+    there.
     """
     patterns = {name: group_at(PatternKeys, f"{PATTERN}.{name}", values) for name in _names(values, PATTERN)}
     scatter = scatter_in(values)

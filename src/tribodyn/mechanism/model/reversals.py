@@ -70,14 +70,9 @@ class Reversals:
     ) -> dict[str, FloatArray]:
         """Return the largest values after each reversal and their times, by name; nothing without any.
 
-        Parameters
-        ----------
-        t
-            Times of the rows [s], shape (n_t,).
-        couplings
-            Observed of all couplings, joints first, shape (n_t, n_couplings) or (n_t, n_couplings, size).
-        clearances
-            Of the joints [m], shape (n_joints,); NaN where they are ideal.
+        ``t``: times of the rows [s], shape (n_t,); ``couplings``: observed of all couplings, joints first,
+        shape (n_t, n_couplings) or (n_t, n_couplings, size); ``clearances``: of the joints [m], shape
+        (n_joints,); NaN where they are ideal.
         """
         if not (self.times.size and t.size):
             return {}

@@ -41,10 +41,7 @@ FOLLOWING: Final = ("mass", "centre", "inertia", "first_axis", "second_axis")
 def of_bodies(given: Mapping[str, Value]) -> dict[str, Value]:
     """Return mass, centre, inertia and axes of all bodies that have a shape, by dotted path.
 
-    Parameters
-    ----------
-    given
-        What was given for a case, by dotted path.
+    ``given``: what was given for a case, by dotted path.
     """
     found: dict[str, Value] = {}
     for prefix in _with_shape(given):
@@ -170,15 +167,8 @@ class MeshSolid:
 def mesh_solid(facets: Sequence[float]) -> MeshSolid:
     """Return the solid inside a surface.
 
-    Parameters
-    ----------
-    facets
-        Corners of triangles, anticlockwise from outside [m], 9 n numbers.
-
-    Raises
-    ------
-    InputError
-        The surface is not closed, or its triangles face inwards.
+    ``facets``: corners of triangles, anticlockwise from outside [m], 9 n numbers. Raises InputError if the
+    surface is not closed, or its triangles face inwards.
     """
     demand(len(facets) > 0 and len(facets) % 9 == 0, "facets", "a triangle has nine coordinates")
     corners = np.array(facets).reshape(-1, 3, 3)

@@ -64,17 +64,10 @@ class Contacts:
     ) -> dict[str, FloatArray]:
         """Return the load measures of the surfaces and their grid errors, shape (n_surfaces,) each.
 
-        Parameters
-        ----------
-        data
-            What the kernels of the run read, with its wear.
-        rows
-            Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
-        peaks
-            What was largest or least of each surface.
-        openings
-            What temperatures have added to radial clearances and plays [m], shape (n_t, n_joints, 2), of the
-            joints with clearance.
+        ``data``: what the kernels of the run read, with its wear; ``rows``: observed of all couplings, shape
+        (n_t, n_couplings) or (n_t, n_couplings, size) each; ``peaks``: what was largest or least of each
+        surface; ``openings``: what temperatures have added to radial clearances and plays [m], shape (n_t,
+        n_joints, 2), of the joints with clearance.
         """
         loads = [
             loading(self.clearances[place.joint].law, touch, pressure, separation)
@@ -185,10 +178,7 @@ class _Finer:
     def grid(self, j: int, clearance: Clearance) -> tuple[SurfaceData, SurfaceMemory]:
         """Return the finer grid of a joint and a memory for it.
 
-        Raises
-        ------
-        Stopped
-            If the caller wants to stop.
+        Raises Stopped if the caller wants to stop.
         """
         key = self.key(j, clearance)
         if self._last is None or self._last[0] != key:

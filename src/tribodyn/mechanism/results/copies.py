@@ -62,12 +62,8 @@ def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[s
 
     The errors of copies are fitted by a linear function of the values in which they differ.
 
-    Parameters
-    ----------
-    case
-        What was simulated.
-    time, errors
-        Times of its rows [s], and the errors of its outputs, shape (n_t, n_outputs).
+    ``case``: what was simulated; ``time``, ``errors``: times of its rows [s], and the errors of its outputs,
+    shape (n_t, n_outputs).
     """
     if not time.size:
         return

@@ -24,19 +24,10 @@ def flash_temperatures(
 ) -> dict[str, FloatArray]:
     """Return the flash temperature of each joint where pressure times speed was largest, by name.
 
-    Parameters
-    ----------
-    model
-        The mechanism, its joints as they are in the run.
-    places, touches
-        The surfaces of all joints with clearance, and both sides of each.
-    rows
-        Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
-
-    Returns
-    -------
-    dict
-        ``flash_temperature`` [K], shape (n_joints,), NaN where it is not known; nothing where it nowhere is.
+    ``model``: the mechanism, its joints as they are in the run; ``places``, ``touches``: the surfaces of all
+    joints with clearance, and both sides of each; ``rows``: observed of all couplings, shape (n_t,
+    n_couplings) or (n_t, n_couplings, size) each. Returns ``flash_temperature`` [K], shape (n_joints,), NaN
+    where it is not known; nothing where it nowhere is.
     """
     found = np.full(len(model.joints), np.nan)
     for k, (name, clearance) in enumerate(model.clearances.items()):

@@ -129,16 +129,9 @@ def pair(
 ) -> dict[str, KeyResult]:
     """Return the sustained maximum and the peak with impacts, by their names.
 
-    Parameters
-    ----------
-    names
-        Of the two.
-    label, unit, group, meaning
-        As of a :class:`~tribodyn.results.summary.KeyResult`; the meaning ends in the share of time.
-    values
-        The quantities over time, shape (n_t,) or (n_t, n).
-    scale
-        Their unit over that of the number.
+    ``names``: of the two; ``label``, ``unit``, ``group``, ``meaning``: as of a
+    :class:`~tribodyn.results.summary.KeyResult`; the meaning ends in the share of time; ``values``: the
+    quantities over time, shape (n_t,) or (n_t, n); ``scale``: their unit over that of the number.
     """
     quiet, loud = names
     return {

@@ -73,12 +73,8 @@ def film_maps(films: FilmData, pictures: Floats) -> dict[str, Floats]:
 
     Of a film with a groove the field is zero: its nodes turn with the groove.
 
-    Parameters
-    ----------
-    films
-        What kernels read of all films.
-    pictures
-        Fields over the nodes of all films [Pa], shape (n_frames, n_nodes).
+    ``films``: what kernels read of all films; ``pictures``: fields over the nodes of all films [Pa], shape
+    (n_frames, n_nodes).
     """
     n, n_theta, n_z = films.wear_node.shape
     if not films.constants.size:
@@ -263,14 +259,7 @@ def _opposed(case: MechanismCase) -> Iterator[str]:
 def following(model: Model, period: float, times: FloatArray) -> Following | None:
     """Return the intervals in which rows follow the steps: shafts may strike faster than output times see.
 
-    Parameters
-    ----------
-    model
-        The mechanism.
-    period
-        Time of one cycle [s].
-    times
-        Of the other rows, from 0 to the end [s], shape (n_t,).
+    ``period``: time of one cycle [s]; ``times``: of the other rows, from 0 to the end [s], shape (n_t,).
     """
     most, n_bodies, duration = model.case.run.step_rows, len(model.bodies), float(times[-1])
     if not model.clearances or most == 0:

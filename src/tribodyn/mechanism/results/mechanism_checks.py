@@ -27,16 +27,8 @@ def of_slow_sliding(
 ) -> list[str]:
     """Return the joints of which much of the sliding is slower than friction is developed, in words.
 
-    Parameters
-    ----------
-    model
-        The mechanism.
-    places
-        Surfaces of all joints with clearance.
-    times
-        Of the rows [s], shape (n_t,).
-    rows
-        Observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
+    ``places``: surfaces of all joints with clearance; ``times``: of the rows [s], shape (n_t,); ``rows``:
+    observed of all couplings, shape (n_t, n_couplings) or (n_t, n_couplings, size) each.
     """
     found: list[str] = []
     if model.case.friction.rest:
@@ -90,12 +82,8 @@ _TIGHTEN: Final = "Tighten solver.rtol tenfold."
 def of_balance(energy: float, gaps: FloatArray) -> list[str]:
     """Return remarks on energy and constraints; empty texts without any.
 
-    Parameters
-    ----------
-    energy
-        What the energy balance misses, as a fraction of its largest term.
-    gaps
-        Largest residual of a constraint over time [m or rad], shape (n_t,).
+    ``energy``: what the energy balance misses, as a fraction of its largest term; ``gaps``: largest residual
+    of a constraint over time [m or rad], shape (n_t,).
     """
     if math.isnan(energy):
         return [
@@ -130,16 +118,8 @@ def messages(*parts: Sequence[str], cost: Mapping[str, float]) -> list[str]:
 def failure(problem: Problem, model: Model, surfaces: Sequence[str], t_end: float) -> str:
     """Return the failures of joints in words; empty where all are intact.
 
-    Parameters
-    ----------
-    problem
-        What was integrated.
-    model
-        The mechanism as drawn.
-    surfaces
-        Names of the surfaces of all joints with clearance, as ``joint:surface``.
-    t_end
-        Simulated time reached [s].
+    ``problem``: what was integrated; ``model``: the mechanism as drawn; ``surfaces``: names of the surfaces
+    of all joints with clearance, as ``joint:surface``; ``t_end``: simulated time reached [s].
     """
     now: Now = problem.memory.now
     broken, at = int(now.course.broken), int(now.course.broken_at)

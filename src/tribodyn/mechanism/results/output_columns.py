@@ -29,16 +29,8 @@ def kinematic_columns(
 ) -> dict[str, FloatArray]:
     """Return velocity ratios of outputs, and their errors by superposition of the joints with clearance.
 
-    Parameters
-    ----------
-    assembly
-        The mechanism of ideal joints.
-    outputs
-        At least one.
-    times
-        Rising, from 0 [s], shape (n_t,).
-    couplings
-        What is observed of joints, see :class:`~.variables.Observed`.
+    ``assembly``: the mechanism of ideal joints; ``outputs``: at least one; ``times``: rising, from 0 [s],
+    shape (n_t,); ``couplings``: what is observed of joints, see :class:`~.variables.Observed`.
     """
     case = assembly.model.case
     shape = (times.size, len(outputs), len(case.joints), len(CAUSES))
@@ -68,16 +60,8 @@ def instant_errors(
 ) -> dict[str, FloatArray]:
     """Return errors at angles and positions of joints, and times, as :func:`.errors_at`; none without.
 
-    Parameters
-    ----------
-    case
-        The mechanism.
-    times
-        Rising [s], shape (n_t,).
-    error
-        Of its outputs, shape (n_t, n_outputs).
-    couplings
-        What is observed of joints, see :class:`~.variables.Observed`.
+    ``times``: rising [s], shape (n_t,); ``error``: of its outputs, shape (n_t, n_outputs); ``couplings``:
+    what is observed of joints, see :class:`~.variables.Observed`.
     """
     instants = instants_of(case.outputs)
     if not instants:

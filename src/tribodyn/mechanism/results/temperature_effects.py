@@ -89,14 +89,8 @@ def depth_of(data: SurfaceData, places: Sequence[Place]) -> FloatArray:
 def worn_model(model: Model, places: Sequence[Place], depth: FloatArray | None) -> Model:
     """Return a mechanism with the roughness that its joints have at a wear depth.
 
-    Parameters
-    ----------
-    model
-        The mechanism as drawn.
-    places
-        Where the surfaces of its joints lie among all nodes.
-    depth
-        Wear depth at the nodes [m], shape (n_nodes,); None for none.
+    ``model``: the mechanism as drawn; ``places``: where the surfaces of its joints lie among all nodes;
+    ``depth``: wear depth at the nodes [m], shape (n_nodes,); None for none.
     """
     if not model.case.wear.running_in or depth is None or not depth.any():
         return model

@@ -35,12 +35,8 @@ def load_arrows(
 ) -> dict[str, LoadArrows]:
     """Return points, forces and moments of loads at the frames, by name, for those with stored motion.
 
-    Parameters
-    ----------
-    dataset, case, drawn
-        The result, its case, and what is drawn of it.
-    position, orientation
-        Of all bodies at the frames, shapes (n_frames, n_bodies, 3) and (n_frames, n_bodies, 4).
+    ``dataset``, ``case``, ``drawn``: the result, its case, and what is drawn of it; ``position``,
+    ``orientation``: of all bodies at the frames, shapes (n_frames, n_bodies, 3) and (n_frames, n_bodies, 4).
     """
     found = {}
     for name, load in case.loads.items():

@@ -31,18 +31,10 @@ def clearances(
 ) -> dict[str, dict[str, Any]]:
     """Return the pins and balls of joints with clearance at the frames, by the names of the joints.
 
-    Parameters
-    ----------
-    dataset, case, drawn
-        The result, its case, and what is drawn of it.
-    orientation
-        Quaternions of the bodies at the frames, shape (n_frames, n_bodies, 4).
-
-    Returns
-    -------
-    dict
-        Radii, length and radial clearance [mm]; at the frames the offset of the pin from the axis of its bore
-        [mm] and the difference of their directions, global axes. The length of a ball is zero.
+    ``dataset``, ``case``, ``drawn``: the result, its case, and what is drawn of it; ``orientation``:
+    quaternions of the bodies at the frames, shape (n_frames, n_bodies, 4). Returns radii, length and radial
+    clearance [mm]; at the frames the offset of the pin from the axis of its bore [mm] and the difference of
+    their directions, global axes. The length of a ball is zero.
     """
     shafts, times, known = Shafts(dataset, case), playback_times(dataset), dataset["clearance"].values
     found = {}

@@ -41,14 +41,7 @@ __all__ = ["FIGURES", "FORMULATIONS", "PaperFigure", "Runs"]
 def save_figure(figure: PaperFigure, data: xr.Dataset, folder: Path) -> None:
     """Write ``fig12.png`` and its data, ``fig12.nc``.
 
-    Parameters
-    ----------
-    figure
-        What to draw.
-    data
-        From ``figure.data``.
-    folder
-        Where to; must exist.
+    ``figure``: what to draw; ``data``: from ``figure.data``; ``folder``: where to; must exist.
     """
     write_bytes(folder / f"{figure.name}.nc", netcdf_content(data))
     save_png(figure.draw(data), folder / f"{figure.name}.png")

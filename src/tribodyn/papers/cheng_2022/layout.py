@@ -36,18 +36,8 @@ def by_clearance(dataset: xr.Dataset, name: str, scale: float = 1.0) -> style.Cu
 def enlarge(axes: Axes, beside: Axes, x: FloatArray, curves: style.Curves, span: tuple[float, float]) -> None:
     """Draw a stretch of the curves again in a panel of its own, and shade it in the whole.
 
-    Parameters
-    ----------
-    axes
-        Where the whole is drawn.
-    beside
-        Where the stretch is drawn, with its own scale.
-    x
-        Abscissa, shape (n,).
-    curves
-        As drawn in ``axes``.
-    span
-        First and last abscissa of the stretch.
+    ``axes``: where the whole is drawn; ``beside``: where the stretch is drawn, with its own scale; ``x``:
+    abscissa, shape (n,); ``curves``: as drawn in ``axes``; ``span``: first and last abscissa of the stretch.
     """
     inside = (x >= span[0]) & (x <= span[1])
     near: style.Curves = [(values[inside], label, colour, dash) for values, label, colour, dash in curves]

@@ -32,14 +32,9 @@ def _silent(text: str) -> None:
 class Runs:
     """Simulated cases by what was changed in them.
 
-    Parameters
-    ----------
-    note
-        Called with a description of each run before it is computed.
-    clearances
-        The clearances of :meth:`every_clearance` [m].
-    changes
-        Keys changed in all runs of a built-in case, by its name, such as those of a coarser grid.
+    ``note``: called with a description of each run before it is computed; ``clearances``: the clearances of
+    :meth:`every_clearance` [m]; ``changes``: keys changed in all runs of a built-in case, by its name, such
+    as those of a coarser grid.
     """
 
     note: Callable[[str], None] = _silent
@@ -165,12 +160,8 @@ def _between(run: xr.Dataset, name: str, times: FloatArray) -> FloatArray:
 def on_grid(run: xr.Dataset, theta: FloatArray, z: FloatArray) -> xr.Dataset:
     """Return fields over a bushing at other nodes, linear between their own.
 
-    Parameters
-    ----------
-    run
-        Variables over ``theta`` [rad], a full turn with constant steps, and ``z`` [m].
-    theta, z
-        The nodes wanted, increasing: angles [rad] and heights [m].
+    ``run``: variables over ``theta`` [rad], a full turn with constant steps, and ``z`` [m]; ``theta``, ``z``:
+    the nodes wanted, increasing: angles [rad] and heights [m].
     """
     turn = run.pad(theta=1, mode="wrap")
     around = run["theta"].values

@@ -39,16 +39,8 @@ def undamped(
 ) -> xr.Dataset:
     """Return the mechanism with the law of Kogut and Etsion alone, to 0.3 s after the first reversal.
 
-    Parameters
-    ----------
-    runs
-        The runs.
-    formulation, friction
-        ``paper`` or ``exact``, ``moment`` or ``traction``.
-    rtol
-        Relative tolerance.
-    more
-        Other keys of the table ``run``; by default every run starts in equilibrium.
+    ``formulation``, ``friction``: ``paper`` or ``exact``, ``moment`` or ``traction``; ``rtol``: relative
+    tolerance; ``more``: other keys of the table ``run``; by default every run starts in equilibrium.
     """
     scale = rtol / TOLERANCES[0]
     settings = {

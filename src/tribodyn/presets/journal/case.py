@@ -263,15 +263,8 @@ _LEAST_SPIN: Final = 1.0e-9  #: Least moment of inertia about the axis over that
 def mechanism_of(case: JournalCase) -> MechanismCase:
     """Return the mechanism that a journal is.
 
-    Parameters
-    ----------
-    case
-        The journal, its joint, drive and loads.
-
-    Returns
-    -------
-    MechanismCase
-        One body, the joint ``bearing`` with its clearance and its film, and, without tilt, a planar joint.
+    ``case``: the journal, its joint, drive and loads. Returns one body, the joint ``bearing`` with its
+    clearance and its film, and, without tilt, a planar joint.
     """
     held = {"between": ("ground", BODY), "point": _CENTRE, "axis": _ALONG}
     joints: dict[str, Any] = {BEARING: {**held, "type": "revolute", "clearance": _clearance(case)}}

@@ -55,10 +55,7 @@ class Loads:
 class Journal:
     """A journal in a bushing under stated loads, for its static equilibrium.
 
-    Raises
-    ------
-    InputError
-        If bushing and film are not of one size.
+    Raises InputError if bushing and film are not of one size.
     """
 
     tilts: bool  #: Whether the journal can tilt; otherwise it stays parallel to the bushing.
@@ -88,12 +85,8 @@ def journal_in(
 ) -> Journal:
     """Return the journal in a bore of any mechanism, at the temperatures of its run.
 
-    Parameters
-    ----------
-    real
-        Its clearance, of a shaft in a bore; end faces are left out.
-    loads, speed, tilts, changes
-        As those of :class:`Journal`.
+    ``real``: its clearance, of a shaft in a bore; end faces are left out; ``loads``, ``speed``, ``tilts``,
+    ``changes``: as those of :class:`Journal`.
     """
     shape = real.shape
     assert isinstance(shape, Cylinder)
@@ -151,20 +144,10 @@ def equilibrium(
 ) -> Equilibrium:
     """Return the static equilibrium of a journal under its loads at t = 0.
 
-    Parameters
-    ----------
-    journal
-        The journal and its loads.
-    speed
-        Speed of rotation [rad/s]; the journal's own by default.
-    guess
-        Attitude to try first [m, rad], shape (2,) or (4,). By default, and where it leads nowhere, the
-        journal is laid against the bushing in the direction of the load.
-
-    Raises
-    ------
-    InputError
-        If no equilibrium is found: the load is more than contact and film can carry.
+    ``journal``: the journal and its loads. ``speed``: speed of rotation [rad/s]; the journal's own by
+    default. ``guess``: attitude to try first [m, rad], shape (2,) or (4,). By default, and where it leads
+    nowhere, the journal is laid against the bushing in the direction of the load. Raises InputError if no
+    equilibrium is found: the load is more than contact and film can carry.
     """
     turning = journal if speed is None else replace(journal, speed=speed)
     statics = _Statics(turning)

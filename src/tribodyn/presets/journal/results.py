@@ -54,12 +54,8 @@ VARIABLES: Final[dict[str, Variable]] = {
 def named_as_printed(native: Mapping[str, FloatArray], *, tilts: bool) -> dict[str, FloatArray]:
     """Return motion and forces of the bearing under the names and with the signs of the source paper.
 
-    Parameters
-    ----------
-    native
-        Columns of the joints of the mechanism, each of shape (n_t, n_joints, ...); the first is the bearing.
-    tilts
-        Whether the journal can tilt; otherwise its tilts are rounding, and zero here.
+    ``native``: columns of the joints of the mechanism, each of shape (n_t, n_joints, ...); the first is the
+    bearing; ``tilts``: whether the journal can tilt; otherwise its tilts are rounding, and zero here.
     """
     one = {name: values[:, 0] for name, values in native.items() if values.ndim > 1}
     lean_x, lean_y = (one[f"tilt_{axis}"] if tilts else np.zeros_like(one["tilt_x"]) for axis in "xy")
@@ -85,12 +81,8 @@ def named_as_printed(native: Mapping[str, FloatArray], *, tilts: bool) -> dict[s
 def loads_as_printed(couplings: Mapping[str, FloatArray], case: MechanismCase) -> dict[str, FloatArray]:
     """Return the loads on the journal, each of shape (n_t,).
 
-    Parameters
-    ----------
-    couplings
-        Observed quantities of joints and, behind them, loads, each of shape (n_t, n_couplings, ...).
-    case
-        The mechanism that the journal is.
+    ``couplings``: observed quantities of joints and, behind them, loads, each of shape (n_t, n_couplings,
+    ...); ``case``: the mechanism that the journal is.
     """
     first, loads = len(case.joints), case.loads.values()
     # A load that turns with the journal is observed on the ground.

@@ -33,17 +33,8 @@ _COLUMNS: Final = {
 def equilibria(journal: Journal, speeds: Iterable[float]) -> list[Equilibrium]:
     """Return the static equilibria of a journal over its speed; each starts from the one before.
 
-    Parameters
-    ----------
-    journal
-        The journal, its load and its film.
-    speeds
-        Speeds of rotation [rad/s], in an order in which neighbours are near.
-
-    Raises
-    ------
-    InputError
-        If there is no load, or no equilibrium at one of the speeds.
+    ``journal``: the journal, its load and its film; ``speeds``: speeds of rotation [rad/s], in an order in
+    which neighbours are near. Raises InputError if there is no load, or no equilibrium at one of the speeds.
     """
     if journal.loads.force == 0.0:
         raise InputError("a Stribeck curve needs a load", key="loads.force_x")

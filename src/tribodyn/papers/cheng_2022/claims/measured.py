@@ -54,14 +54,8 @@ def work() -> Iterator[tuple[int, bool]]:
 def measure(folder: Path, processes: int, note: Callable[[str], None]) -> Path:
     """Measure the members that a folder does not have yet, and write the whole as one file.
 
-    Parameters
-    ----------
-    folder
-        Where pieces are kept: what is there is not measured again.
-    processes
-        How many members are measured at once.
-    note
-        Called with what was finished.
+    ``folder``: where pieces are kept: what is there is not measured again; ``processes``: how many members
+    are measured at once; ``note``: called with what was finished.
     """
     paths = {piece: folder / f"member-{piece[0]}{'-slow' if piece[1] else ''}.json" for piece in work()}
     missing = [piece for piece, path in paths.items() if not path.is_file()]

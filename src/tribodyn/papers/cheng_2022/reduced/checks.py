@@ -105,20 +105,10 @@ def warnings(
 ) -> list[str]:
     """Return the warnings on a run, one sentence each.
 
-    Parameters
-    ----------
-    vsv
-        The mechanism.
-    found
-        Extremes, error of the grid and loading of the joint, by the names of attributes.
-    whole, clearance
-        Energy residuals as fractions.
-    t_end
-        Simulated time reached [s].
-    statistics
-        Cost of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`.
-    when
-        When the contact pressure was largest, in words.
+    ``found``: extremes, error of the grid and loading of the joint, by the names of attributes; ``whole``,
+    ``clearance``: energy residuals as fractions; ``t_end``: simulated time reached [s]; ``statistics``: cost
+    of the integration, by the names of :class:`~tribodyn.core.problem.Statistics`; ``when``: when the contact
+    pressure was largest, in words.
     """
     share = lift_off_share(found, t_end)
     messages = [
@@ -142,16 +132,9 @@ def notes(
 ) -> list[str]:
     """Return notes on numbers that are valid, one sentence each.
 
-    Parameters
-    ----------
-    vsv, found, t_end
-        As for :func:`warnings`.
-    pressure
-        Largest contact pressure [Pa].
-    turns
-        Times of the start and of the reversals that were reached [s].
-    carried
-        Whether the start is a reversal, because the run continues from another one.
+    ``vsv``, ``found``, ``t_end``: as for :func:`warnings`; ``pressure``: largest contact pressure [Pa];
+    ``turns``: times of the start and of the reversals that were reached [s]; ``carried``: whether the start
+    is a reversal, because the run continues from another one.
     """
     share = lift_off_share(found, t_end)
     messages = [

@@ -26,19 +26,8 @@ _MOST_PIECES: Final = 1_000_000
 def drive_of(keys: CrankKeys, duration: float, *, again: bool) -> AnyDrive:
     """Return the motion of the crank.
 
-    Parameters
-    ----------
-    keys
-        Its table of a case.
-    duration
-        Of the run [s].
-    again
-        Whether its cycle comes again, however long the run is.
-
-    Raises
-    ------
-    InputError
-        A table does not hold as much as the run needs, or jumps.
+    ``keys``: its table of a case; ``duration``: of the run [s]; ``again``: whether its cycle comes again,
+    however long the run is. Raises InputError if a table does not hold as much as the run needs, or jumps.
     """
     if keys.table is None:
         return CrankMotion(keys.start_angle, keys.speed_amplitude, keys.angular_frequency)

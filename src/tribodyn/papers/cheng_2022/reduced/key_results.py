@@ -67,18 +67,8 @@ def output_fields(
 ) -> dict[str, FloatArray]:
     """Return the limits of the errors of outputs, and their errors at angles of the crank, or times.
 
-    Parameters
-    ----------
-    outputs
-        By name.
-    times
-        Rising [s], shape (n_t,).
-    error
-        Of the outputs, shape (n_t, n_outputs).
-    crank
-        Angle of the crank [rad], shape (n_t,).
-    period
-        Of a cycle [s].
+    ``outputs``: by name; ``times``: rising [s], shape (n_t,); ``error``: of the outputs, shape (n_t,
+    n_outputs); ``crank``: angle of the crank [rad], shape (n_t,); ``period``: of a cycle [s].
     """
     instants, errors = instants_of(outputs), dict(zip(outputs, error.T, strict=True))
     at = errors_at(instants, times, errors, lambda instant: crank, period) if instants else {}
@@ -90,21 +80,9 @@ def error_growth(
 ) -> FloatArray:
     """Return the errors of outputs by displacements of the trunnion, shape (n_t, n_outputs).
 
-    Parameters
-    ----------
-    outputs
-        By name.
-    mechanism
-        Sizes of the mechanism, as kernels read them.
-    poses
-        θ_a, e_x, e_y, φ_x and φ_y [rad and m], shape (n_t, 5).
-    moved
-        Displacement [m] and rotation [rad] of the trunnion, right-handed, shape (n_t, 6).
-
-    Returns
-    -------
-    numpy.ndarray
-        In the units of the outputs; NaN for angular velocities.
+    ``outputs``: by name; ``mechanism``: sizes of the mechanism, as kernels read them; ``poses``: θ_a, e_x,
+    e_y, φ_x and φ_y [rad and m], shape (n_t, 5); ``moved``: displacement [m] and rotation [rad] of the
+    trunnion, right-handed, shape (n_t, 6). Returns in the units of the outputs; NaN for angular velocities.
     """
     change = moved[:, [0, 1, 3, 4]] * _HANDS
     forward, backward = (
@@ -118,14 +96,8 @@ def error_growth(
 def _vane_angles(mechanism: Record, theta_a: FloatArray, attitudes: FloatArray) -> FloatArray:
     """Return angles of the vane [rad], shape (n,).
 
-    Parameters
-    ----------
-    mechanism
-        Sizes of the mechanism.
-    theta_a
-        Angles of the crank [rad], shape (n,).
-    attitudes
-        e_x, e_y, φ_x and φ_y of the trunnion [m and rad], shape (n, 4).
+    ``mechanism``: sizes of the mechanism; ``theta_a``: angles of the crank [rad], shape (n,); ``attitudes``:
+    e_x, e_y, φ_x and φ_y of the trunnion [m and rad], shape (n, 4).
     """
     from tribodyn.kernels.vsv.closure import vane_attitude
 

@@ -43,12 +43,7 @@ _FOLLOWED: Final = {
 def terms_of(case: VsvCase, vane_arm: float) -> Iterator[Term]:
     """Yield the loads of a case from tables.
 
-    Parameters
-    ----------
-    case
-        The case.
-    vane_arm
-        From the trunnion centre down to the vane's centre [m].
+    ``vane_arm``: from the trunnion centre down to the vane's centre [m].
     """
     loads = case.loads
     for load in (

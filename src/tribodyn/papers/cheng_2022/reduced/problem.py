@@ -39,14 +39,8 @@ FUNCTIONS: Final = CompiledFunctions(**functions.FUNCTIONS)
 def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.inf) -> VsvData:
     """Return the data of the kernels.
 
-    Parameters
-    ----------
-    vsv
-        The mechanism.
-    wear
-        Wear depth at the nodes [m].
-    duration
-        Length of the run [s]; the crank must reach no further than it takes it.
+    ``wear``: wear depth at the nodes [m]; ``duration``: length of the run [s]; the crank must reach no
+    further than it takes it.
     """
     lengths, inertias, drive = vsv.lengths, vsv.inertias, vsv.drive
     ideal_first, ideal_inverse_step, ideal = ideal_table(lengths, *vsv.drive.crank_range(duration))
@@ -124,14 +118,8 @@ def _row_weight(vsv: Vsv) -> FloatArray:
 def vsv_memory(data: VsvData, *, reversals: int = 0, impact_time: float = 0.0) -> VsvMemory:
     """Return an empty memory: no contact, no work done yet, direction forward.
 
-    Parameters
-    ----------
-    data
-        From :func:`vsv_data`.
-    reversals
-        How many reversals the run has.
-    impact_time
-        How long impacts last after each [s].
+    ``data``: from :func:`vsv_data`; ``reversals``: how many reversals the run has; ``impact_time``: how long
+    impacts last after each [s].
     """
     return VsvMemory(
         joint=new_memory(data.joint),
@@ -157,13 +145,8 @@ def _swing_of(data: VsvData) -> int:
 def initial_state(data: VsvData, memory: VsvMemory, start: str) -> FloatArray:
     """Return the state at t = 0, shape (8,).
 
-    Parameters
-    ----------
-    data, memory
-        The mechanism.
-    start
-        ``centred``: everything zero. ``equilibrium``: the kinetostatic attitude at 0⁺ with friction
-        fully sliding in the direction of the motion about to begin.
+    ``start``: ``centred``: everything zero. ``equilibrium``: the kinetostatic attitude at 0⁺ with friction
+    fully sliding in the direction of the motion about to begin.
     """
     if start not in STARTS:
         raise InputError(f"given {start!r}; allowed: {', '.join(STARTS)}", key="run.start")
@@ -184,20 +167,9 @@ def vsv_problem(
 ) -> Problem:
     """Return the initial value problem of the mechanism.
 
-    Parameters
-    ----------
-    vsv
-        The mechanism.
-    duration
-        Simulated time [s].
-    start
-        ``centred`` or ``equilibrium``.
-    atol
-        Absolute tolerances of e [m], φ [rad], ė [m/s], φ̇ [rad/s].
-    wear
-        Wear depth at the nodes [m].
-    carried
-        Where to continue from, at the beginning of a drive cycle, instead of ``start``.
+    ``duration``: simulated time [s]; ``start``: ``centred`` or ``equilibrium``; ``atol``: absolute tolerances
+    of e [m], φ [rad], ė [m/s], φ̇ [rad/s]; ``wear``: wear depth at the nodes [m]; ``carried``: where to
+    continue from, at the beginning of a drive cycle, instead of ``start``.
     """
     data = vsv_data(vsv, wear, duration)
     events = run_segments(vsv, duration)

@@ -62,12 +62,7 @@ def sense(lengths: Lengths) -> float:
 def ideal_vane_angle(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
     """Return θ_v [rad] of the assembly that :func:`sense` gives; NaN where the loop cannot close.
 
-    Parameters
-    ----------
-    lengths
-        The mechanism.
-    theta_a
-        Crank angles [rad], shape (n,).
+    ``theta_a``: crank angles [rad], shape (n,).
     """
     sign, s1 = sense(lengths), _crank_end(lengths, theta_a)
     low, high = _brackets(lengths, sign, s1)
@@ -124,17 +119,8 @@ def reachable(lengths: Lengths, first: float, last: float) -> tuple[float, float
 def check_reach(lengths: Lengths, first: float, last: float) -> None:
     """Refuse a drive that takes the crank beyond its reach.
 
-    Parameters
-    ----------
-    lengths
-        The mechanism.
-    first, last
-        Smallest and largest crank angle of the drive [rad].
-
-    Raises
-    ------
-    InputError
-        If the loop does not close all the way.
+    ``first``, ``last``: smallest and largest crank angle of the drive [rad]. Raises InputError if the loop
+    does not close all the way.
     """
     if np.isfinite(ideal_vane_angle(lengths, np.linspace(first, last, 721))).all():
         return
@@ -175,12 +161,8 @@ def crank_lever(lengths: Lengths, theta_a: FloatArray) -> FloatArray:
 def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ...]:
     """Return the crank angles [rad] inside a crank range at which the vane of the ideal mechanism turns back.
 
-    Parameters
-    ----------
-    lengths
-        The mechanism, which reaches all of the range.
-    first, last
-        Smallest and largest crank angle [rad].
+    ``lengths``: the mechanism, which reaches all of the range; ``first``, ``last``: smallest and largest
+    crank angle [rad].
     """
     angles = np.linspace(first, last, N_IDEAL + 1)
     forward = crank_lever(lengths, angles) > 0.0
@@ -195,12 +177,7 @@ def dead_centres(lengths: Lengths, first: float, last: float) -> tuple[float, ..
 def at_limit(mechanism: Record, theta_a: float, y: FloatArray) -> bool:
     """Tell whether the assemblies meet, or nearly, with the trunnion where it is: beyond, nothing closes.
 
-    Parameters
-    ----------
-    mechanism
-        Its constants.
-    theta_a, y
-        Crank angle [rad] and state, shape (8,).
+    ``theta_a``, ``y``: crank angle [rad] and state, shape (8,).
     """
     s1 = crank_end(mechanism, theta_a)
     place = (float(y[0]), float(y[1]), portable.tan(y[2]), portable.tan(y[3]))

@@ -99,16 +99,8 @@ def computed(
 ) -> DamperRecord:
     """Return the force on the rod over the displacement of a record; of a loop that of the second cycle.
 
-    Parameters
-    ----------
-    given
-        Values of :data:`PARAMETERS`.
-    record
-        Its displacement drives the rod.
-    start
-        Place of the rod in the play at the start, over the play.
-    cyclic
-        Whether the record is a loop.
+    ``given``: values of :data:`PARAMETERS`; ``record``: its displacement drives the rod; ``start``: place of
+    the rod in the play at the start, over the play; ``cyclic``: whether the record is a loop.
     """
     n, period = record.time.size, float(record.time[-1])
     times = np.append(record.time, period + record.time[1:]) if cyclic else record.time

@@ -89,18 +89,8 @@ def rebound(
 ) -> Rebound:
     """Return the motion of a sphere without spin after it leaves a plate.
 
-    Parameters
-    ----------
-    sphere
-        Sphere and contact.
-    speed
-        Speed before the impact [m/s].
-    incidence
-        Angle from the normal, between 0 and π/2 [rad].
-    law
-        The tangential law.
-    steps
-        Steps per duration of the undamped impact.
+    ``sphere``: sphere and contact; ``speed``: speed before the impact [m/s]; ``incidence``: angle from the
+    normal, between 0 and π/2 [rad]; ``steps``: steps per duration of the undamped impact.
     """
     approach, slide = speed * math.cos(incidence), speed * math.sin(incidence)
     stiffness = 4.0 / 3.0 * sphere.normal_modulus * math.sqrt(sphere.radius)
