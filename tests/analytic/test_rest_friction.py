@@ -1,5 +1,6 @@
 """Friction that holds at rest: closed forms, passivity, and what must not creep."""
 
+import json
 import math
 from typing import Any
 
@@ -7,11 +8,18 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.joints.surface.memory import NORMAL
 from tribodyn.kernels.mechanism.data import Law
+from tribodyn.mechanism.assembly.assembly import assemble
+from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.bristle import bristle
+from tribodyn.mechanism.mechanism_case import MechanismCase
 
 GRAVITY, SIZE = 9.81, 0.1
 STEEP = math.atan(0.2)
@@ -203,14 +211,17 @@ def test_a_block_holds_in_a_guide_with_play(shape: str) -> None:
     assert moved(run, 5.0) < 1e-9 * SIZE
 
 
-def test_a_ball_holds_in_its_socket() -> None:
+def ball() -> td.Mechanism:
+    """Return an arm on a ball with clearance, whose mass centre lies beside the ball."""
     drawn = td.Mechanism("Ball", gravity=f"0, -{GRAVITY}, 0 m/s^2", friction=HELD, run={"duration": "100 s"})
     drawn.body("arm", mass="1 kg", centre="0.3, 0, 0.2 mm", inertia="1e-4, 1e-4, 1e-4 kg m^2")
     drawn.spherical("seat", "ground", "arm", point="0, 0, 0 mm")
-    drawn.clearance(
-        "seat", radius="10 mm", radial="20 um", friction_coefficient=0.1, nodes_around=48, nodes_along=12
-    )
-    assert moved(td.simulate(drawn.case()), 5.0) < 1e-9 * SIZE
+    sizes = {"radius": "10 mm", "radial": "20 um"}
+    return drawn.clearance("seat", **sizes, friction_coefficient=0.1, nodes_around=48, nodes_along=12)
+
+
+def test_a_ball_holds_in_its_socket() -> None:
+    assert moved(td.simulate(ball().case()), 5.0) < 1e-9 * SIZE
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -255,3 +266,42 @@ def test_friction_without_a_load_is_refused() -> None:
     with pytest.raises(InputError, match="nothing here has friction") as caught:
         drawn.case()
     assert caught.value.key == "friction.rest"
+
+
+@pytest.mark.parametrize("moved_on", [2e-7, 3e-6])
+def test_derivatives_of_what_sticks_are_those_of_differences(moved_on: float) -> None:
+    """Of a ball that is pressed into its socket, after an accepted step, below and beyond the presliding."""
+    case = ball().case()
+    assert isinstance(case, MechanismCase)
+    model = Model(case, clearances_of(case))
+    problem = mechanism_problem(assemble(model), duration=1.0, rtol=1e-6, dense=True)
+    functions, given, random = problem.functions, (problem.data, problem.memory), np.random.default_rng(1)
+    y, n = problem.y0.copy(), problem.y0.size
+    y[:3] += 2.05e-5 * np.array([0.1, -1.0, 0.2])
+    functions.enter(0.0, y, *given)
+    functions.accept(0.0, y, *given)
+    y[:3] += moved_on * random.normal(size=3) * [1.0, 0.1, 1.0]
+    y[3:7] += 30.0 * moved_on * random.normal(size=4)
+    y[7:] = 1e-4 * random.normal(size=6)
+    found, f, steps = np.zeros((n, n)), np.zeros(n), np.repeat([1e-11, 1e-8, 1e-9, 1e-7], [3, 4, 3, 3])
+    functions.jac(0.0, y, *given, f, found)
+    assert problem.memory.contact.strains[0, NORMAL:].any()
+
+    def at(place: FloatArray) -> FloatArray:
+        rates = np.zeros(n)
+        functions.rhs(0.0, place, *given, rates)
+        return rates
+
+    differences = np.array([(at(y + e) - at(y - e)) / (2.0 * e.max()) for e in np.diag(steps)]).T
+    scale = np.abs(differences).max(axis=0)
+    assert (np.abs(found - differences) / scale).max() < 1e-3
+
+
+def test_friction_at_rest_takes_few_more_steps() -> None:
+    """Balls that slide with a spin, pins and a collar: 1.17 times the steps of the regularised law."""
+    case = td.load_case("vsv-joints", {"run.cycles": 0.5})
+    steps = [
+        json.loads(td.simulate(case.replace({"friction.rest": held})).attrs["solver"])["steps"]
+        for held in (True, False)
+    ]
+    assert steps[0] < 1.3 * steps[1]

@@ -150,7 +150,7 @@ def wrench_and_jacobian(
         _add_wrench(memory, out)
         add_derivatives(surface.tilt, memory.scratch, pose, jacobian)
         if memory.strains[s, RATE] > 0.0:
-            add_stiffness(memory.strains[s, RATE], memory.scratch.friction_slip, jacobian)
+            add_stiffness(memory.strains[s], memory.scratch, jacobian)
 
 
 @kernel

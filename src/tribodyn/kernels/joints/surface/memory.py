@@ -2,8 +2,9 @@
 
 Friction may hold at rest. Of a shaft whose velocity and angular velocity are V, tractions follow the slip of
 V + U/τ. U is what sticks: a displacement and a rotation, with those of the shaft since the last accepted
-step. A node at rest then resists with the stiffness μ p/(u_s τ). At accepted steps U becomes the slip of the
-contact's middle and the spin about its normal, both bounded; where nothing touches there is none.
+step, scaled down where the slip u of the contact's middle and the spin w about its normal there are more than
+breaks away, u² + (l w)² > δ² with a lever l. A node at rest then resists with the stiffness μ p/(u_s τ). At
+accepted steps U becomes that slip and that spin alone; where nothing touches there is none.
 """
 
 import math
@@ -14,7 +15,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.listed import Listed
 from tribodyn.kernels.joints.surface.pose import Pose
@@ -32,8 +33,11 @@ RATE: Final = 7  #: 1/τ [1/s], 0 without friction at rest.
 DEPTH: Final = 8
 #: Distance of the nodes from the origin of the shaft along the normal, and as a root of mean squares [m].
 LEVER: Final = 9
-LARGEST: Final = 10  #: Bound of U [m].
-N_STRAIN: Final = 11  #: Numbers of a surface.
+LARGEST: Final = 10  #: Bound δ of U [m].
+MIDDLE: Final = 11
+#: Middle [m] and normal of the contact at the last accepted step, zero without one.
+NORMAL: Final = 14
+N_STRAIN: Final = 17  #: Numbers of a surface.
 KNOWN: Final = 12
 #: Numbers of a joint: displacement and rotation of the shaft at the last accepted step, and 1 with one.
 N_ANCHOR: Final = 13
@@ -52,6 +56,8 @@ Scratch: Final = record_type(
     ("rigid_moment", "f8", (3,)),
     ("moving", "f8", (6,)),
     ("strained", "f8", (6,)),
+    ("growth", "f8", (6,)),
+    ("size", "f8"),
     ("ring_sums", "f8", (WIDTH * WIDTH * N_SUMS,)),
     ("ring_slopes", "f8", (WIDTH * 5 * 36,)),
     ("listed", Listed),
@@ -70,8 +76,9 @@ normal_place, normal_rate, friction_place, friction_rate, friction_slip
     Derivatives of normal and friction in (d, φ), (v, φ̇), and (v, ω).
 moment, rigid_moment
     Moments of the pressure and of its rigid part, turned.
-moving, strained
-    Slip and angular velocity of the station without what sticks; U, see above.
+moving, strained, growth, size
+    Slip and angular velocity of the station without what sticks; U, see above; the size √(u² + l² w²) of what
+    U was before its bound, and the derivative of half its square.
 """
 
 
@@ -161,25 +168,59 @@ def _fill_strained(memory: SurfaceMemory, s: int, j: int, pose: Record, out: Flo
 
 
 @kernel
-def add_strain(memory: SurfaceMemory, s: int, j: int, pose: Record) -> None:
-    """Add the elastic slip of a surface to its station."""
-    scratch, station, rate = memory.scratch, memory.scratch.station, memory.strains[s, RATE]
-    for i in range(3):
-        scratch.moving[i], scratch.moving[3 + i] = station.slip[i], station.w[i]
-    _fill_strained(memory, s, j, pose, scratch.strained)
-    x, z, u = scratch.strained, station.height, station.axis
+def _size_of(strain: FloatArray, x: FloatArray, growth: FloatArray) -> float:
+    """Return the size of slip and spin of ``x`` (6,), and fill ``growth`` (6,) as ``Scratch`` says."""
+    middle, n, lever = strain[MIDDLE:], strain[NORMAL:], strain[LEVER]
+    across = spin = 0.0
     for i in range(3):
         a, b = (i + 1) % 3, (i + 2) % 3
-        station.slip[i] += rate * (x[i] - z * (x[3 + a] * u[b] - x[3 + b] * u[a]))
-        station.w[i] += rate * x[3 + i]
+        growth[i] = x[i] + x[3 + a] * middle[b] - x[3 + b] * middle[a]
+        across += n[i] * growth[i]
+        spin += n[i] * x[3 + i]
+    square = (lever * spin) ** 2
+    for i in range(3):
+        growth[i] -= across * n[i]
+        square += growth[i] * growth[i]
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        growth[3 + i] = middle[a] * growth[b] - middle[b] * growth[a] + lever * lever * spin * n[i]
+    return math.sqrt(square)
+
+
+@inlined
+def _bound(strain: FloatArray, size: float) -> float:
+    return strain[LARGEST] / size if size > strain[LARGEST] else 1.0
 
 
 @kernel
-def add_stiffness(rate: float, slip: FloatArray, jacobian: FloatArray) -> None:
-    """Add the derivatives of the elastic slip in the pose to ``jacobian`` (6, 12)."""
+def add_strain(memory: SurfaceMemory, s: int, j: int, pose: Record) -> None:
+    """Add the elastic slip of a surface to its station."""
+    scratch, station, strain = memory.scratch, memory.scratch.station, memory.strains[s]
+    for i in range(3):
+        scratch.moving[i], scratch.moving[3 + i] = station.slip[i], station.w[i]
+    x, z, u = scratch.strained, station.height, station.axis
+    _fill_strained(memory, s, j, pose, x)
+    scratch.size = _size_of(strain, x, scratch.growth)
+    bound = _bound(strain, scratch.size)
     for i in range(6):
+        x[i] *= bound
+    for i in range(3):
+        a, b = (i + 1) % 3, (i + 2) % 3
+        station.slip[i] += strain[RATE] * (x[i] - z * (x[3 + a] * u[b] - x[3 + b] * u[a]))
+        station.w[i] += strain[RATE] * x[3 + i]
+
+
+@kernel
+def add_stiffness(strain: FloatArray, scratch: Record, jacobian: FloatArray) -> None:
+    """Add the derivatives of the elastic slip in the pose to ``jacobian`` (6, 12)."""
+    slip, bound = scratch.friction_slip, _bound(strain, scratch.size)
+    for i in range(6):
+        along = 0.0
+        if bound < 1.0:
+            for k in range(6):
+                along += slip[i, k] * scratch.strained[k] / scratch.size**2
         for k in range(6):
-            jacobian[i, k] += rate * slip[i, k]
+            jacobian[i, k] += strain[RATE] * (bound * slip[i, k] - along * scratch.growth[k])
 
 
 @kernel
@@ -196,11 +237,12 @@ def tell_motion(memory: SurfaceMemory, s: int, out: Record) -> None:
 @kernel
 def take_over(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) -> None:
     """Take over what sticks in joint ``j`` at the end of an accepted step, by its last reports."""
-    anchor = memory.anchors[j]
+    anchor, scratch = memory.anchors[j], memory.scratch
     for s in range(data.joints[j], data.joints[j + 1]):
         if memory.strains[s, RATE] > 0.0:
-            _fill_strained(memory, s, j, pose, memory.scratch.strained)
-            _bound(memory.strains[s], memory.reports[s], memory.scratch.strained)
+            _fill_strained(memory, s, j, pose, scratch.strained)
+            _put_contact(memory.strains[s], memory.reports[s])
+            _keep(memory.strains[s], scratch.strained, scratch.growth)
     anchor[KNOWN] = 1.0
     for i in range(3):
         anchor[i] = pose.d[i]
@@ -209,35 +251,44 @@ def take_over(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) ->
 
 
 @kernel
-def _bound(strain: FloatArray, report: Record, x: FloatArray) -> None:
-    """Fill U with slip and spin of ``x`` (6,) at the middle of the contact, bounded."""
+def _put_contact(strain: FloatArray, report: Record) -> None:
+    """Put the middle and the normal of the contact of a surface where its last report has them."""
     force = (report.F_cx, report.F_cy, report.F_cz)
     moment = (report.M_cx, report.M_cy, report.M_cz)
     square = force[0] * force[0] + force[1] * force[1] + force[2] * force[2]
-    if square == 0.0:
-        for i in range(6):
-            strain[i] = 0.0
-        return
-    size, spin, across, slips = math.sqrt(square), 0.0, 0.0, 0.0
     for i in range(3):
         a, b = (i + 1) % 3, (i + 2) % 3
+        n = force[i] / math.sqrt(square) if square > 0.0 else 0.0
         # The middle lies where the force passes, on the side that it comes from.
-        strain[3 + i] = (force[a] * moment[b] - force[b] * moment[a]) / square - strain[DEPTH] * force[
-            i
-        ] / size
-        spin += force[i] / size * x[3 + i]
+        passes = (force[a] * moment[b] - force[b] * moment[a]) / square if square > 0.0 else 0.0
+        strain[MIDDLE + i], strain[NORMAL + i] = passes - strain[DEPTH] * n, n
+
+
+@kernel
+def _keep(strain: FloatArray, x: FloatArray, growth: FloatArray) -> None:
+    """Make U the bounded slip and spin of ``x`` (6,); none without contact. ``growth`` (6,) is work.
+
+    Of the rotation as much is kept as the slip has of it: it goes on as it is where the shaft slides so, and
+    where the shaft rolls nothing accumulates.
+    """
+    bound = _bound(strain, _size_of(strain, x, growth))
+    c, n = strain[MIDDLE:NORMAL], strain[NORMAL:]
+    spin = n[0] * x[3] + n[1] * x[4] + n[2] * x[5]
+    touches = n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
+    across = along = square = 0.0
     for i in range(3):
         a, b = (i + 1) % 3, (i + 2) % 3
-        strain[i] = x[i] + x[3 + a] * strain[3 + b] - x[3 + b] * strain[3 + a]
-        across += force[i] / size * strain[i]
+        turned = x[3 + i] - spin * n[i]
+        growth[3 + i] = (x[3 + a] - spin * n[a]) * c[b] - (x[3 + b] - spin * n[b]) * c[a]
+        across += growth[3 + i] * n[i]
+        strain[3 + i] = turned
     for i in range(3):
-        strain[i] -= across * force[i] / size
-        slips += strain[i] * strain[i]
-    whole = math.sqrt(slips) + strain[LEVER] * abs(spin)
-    factor = min(1.0, strain[LARGEST] / whole) if whole > 0.0 else 1.0
-    n = (force[0] / size, force[1] / size, force[2] / size)
-    c = (strain[3], strain[4], strain[5])
+        growth[3 + i] -= across * n[i]
+        along += growth[i] * growth[3 + i]
+        square += growth[3 + i] * growth[3 + i]
+    share = min(max(along / square, 0.0), 1.0) if square > 0.0 else 0.0
     for i in range(3):
         a, b = (i + 1) % 3, (i + 2) % 3
-        strain[i] = factor * (strain[i] - spin * (n[a] * c[b] - n[b] * c[a]))
-        strain[3 + i] = factor * spin * n[i]
+        slip = growth[i] - share * growth[3 + i] - spin * (n[a] * c[b] - n[b] * c[a])
+        strain[i] = touches * bound * slip
+        strain[3 + i] = touches * bound * (spin * n[i] + share * strain[3 + i])
