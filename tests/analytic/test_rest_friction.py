@@ -224,6 +224,72 @@ def test_a_ball_holds_in_its_socket() -> None:
     assert moved(td.simulate(ball().case()), 5.0) < 1e-9 * SIZE
 
 
+MESHES: dict[str, dict[str, Any]] = {
+    "backlash": {"backlash": "0.1 mm", "mesh_stiffness": "1e8 N/m"},
+    "losses": {"efficiency": 0.9, "backward_efficiency": 0.8},
+    "worm": {"lead_angle": "3 deg", "friction_coefficient": 0.1},
+}
+
+
+@pytest.mark.parametrize("mesh", MESHES)
+def test_a_gear_pair_holds_under_a_torque(mesh: str) -> None:
+    """The bearing of the pinion holds 0.2 N m against the 0.15 N m of the wheel."""
+    drawn = td.Mechanism("Gears", friction=HELD, run={"duration": "1000 s"})
+    drawn.body("pinion", mass="1 kg", centre="0, 0, 0 mm", inertia="3e-4, 3e-4, 5e-4 kg m^2")
+    drawn.body("wheel", mass="4 kg", centre="90, 0, 0 mm", inertia="5e-3, 5e-3, 9e-3 kg m^2")
+    drawn.revolute("input", "ground", "pinion", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.revolute("output", "ground", "wheel", point="90, 0, 0 mm", axis=[0, 0, 1])
+    drawn.gear("mesh", joints=["input", "output"], ratio=-0.5, **MESHES[mesh])
+    load = {"radius": "10 mm", "friction_coefficient": 0.2, "normal_load": "100 N"}
+    drawn.friction("rubbing", joint="input", **load)
+    drawn.load("torque", body="wheel", moment="0.3 N m", direction=[0, 0, 1])
+    run = td.simulate(drawn.case())
+    assert run.attrs["failure"] == ""
+    assert turned(run, 5.0) < 1e-9
+
+
+def turned(run: Any, after: float) -> float:
+    """Return how far bodies turn after a time [rad]."""
+    late = run["orientation"].values[run["time"].values > after]
+    return 2.0 * float(np.ptp(late, axis=0).max())
+
+
+def test_a_pin_holds_in_its_slot() -> None:
+    """A spring presses the slot on the pin with 100 N, and 6 N pull it along with a coefficient of 0.2."""
+    drawn = td.Mechanism("Slot", friction=HELD, run={"duration": "1000 s"})
+    for name, kind, axis in (("yoke", "guide", [1, 0, 0]), ("pin", "slide", [0, 1, 0])):
+        drawn.body(name, mass="1 kg", centre="0, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
+        drawn.prismatic(kind, "ground", name, point="0, 0, 0 mm", axis=axis)
+    drawn.slot("contact", "yoke", "pin", point="0, 0, 0 mm", axis=[0, 1, 0], second_axis=[0, 0, 1])
+    sizes = {"radius": "5 mm", "radial": "20 um", "length": "20 mm"}
+    drawn.clearance("contact", **sizes, friction_coefficient=0.2)
+    ends = {"first_point": "-100, 0, 0 mm", "second_point": "0, 0, 0 mm"}
+    drawn.spring("back", "ground", "yoke", stiffness="1e5 N/m", damping="100 N s/m", **ends)
+    for name, body, force, direction in (("press", "yoke", 100, [1, 0, 0]), ("pull", "pin", 6, [0, 1, 0])):
+        drawn.load(name, body=body, point="0, 0, 0 mm", force=f"{force} N", direction=direction)
+    run = td.simulate(drawn.case())
+    assert run.attrs["failure"] == ""
+    assert moved(run.sel(body=["pin"]), 5.0) < 1e-9 * SIZE
+
+
+@pytest.mark.parametrize(("torque", "holds"), [(0.2, True), (0.35, False)])
+def test_an_end_face_holds_under_load_and_torque(torque: float, holds: bool) -> None:
+    """Its limit is the coefficient times 100 N times the mean radius of 14 mm: 0.28 N m."""
+    drawn = td.Mechanism("Face", friction=HELD, run={"duration": "1000 s" if holds else "0.2 s"})
+    drawn.body("shaft", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-4, 1e-4, 1e-4 kg m^2")
+    drawn.revolute("pivot", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 0, 1])
+    sizes = {"radius": "10 mm", "radial": "20 um", "length": "20 mm", "axial": "50 um", "flange": "18 mm"}
+    drawn.clearance("pivot", **sizes, friction_coefficient=0.2, nodes_around=48, nodes_along=8)
+    drawn.load("push", body="shaft", point="0, 0, 0 mm", force="100 N", direction=[0, 0, -1])
+    drawn.load("torque", body="shaft", moment=f"{torque} N m", direction=[0, 0, 1])
+    run = td.simulate(drawn.case())
+    assert run.attrs["failure"] == ""
+    if holds:
+        assert max(moved(run, 5.0) / SIZE, turned(run, 5.0)) < 1e-9
+    else:
+        assert turned(run, 0.1) > 0.1
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_friction_of_a_guide_with_play_gives_no_energy_under_random_loads(seed: int) -> None:
     """Its heat never falls by more than what sticks can store, below mu N delta with the largest load N."""
