@@ -2,6 +2,7 @@
 
 python -m benchmarks.builds                    4,000 vanes alone and 100 rings of 40; some hours
 python -m benchmarks.builds 4000 30 FOLDER     so many vanes and rings; what is in the folder is kept
+python -m benchmarks.builds rings 200 FOLDER   so many rings of vanes whose errors are read from a table
 python -m benchmarks.builds killed 1000        so many vanes on two workers, killed and resumed
 
 One number scatters, the clearance of the trunnions. So errors are functions of it, which the vanes are a
@@ -24,10 +25,12 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
 
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.studies.builds import LEVELS, NUMBERS, BuildRuns, Copies, draw, numbers_of_builds
+from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.sweep import SILENT, Means
 
 COUNT: Final = 40
@@ -35,6 +38,8 @@ SEED: Final = 0
 FULL, DRAWS, AT_ONCE = 20_000, 1_000_000, 400
 LEVEL: Final = LEVELS[-1]
 RIGID: Final = TEMPLATES["vsv-ring"].text.replace('elastic = "beam"\n', "")
+RINGS: Final = 200  #: Of whose vanes any number of rings has the first.
+TABLE: Final = 400  #: Vanes of which errors of others are read.
 KILLS: Final = 3
 LONGEST: Final = 7200.0
 
@@ -48,7 +53,37 @@ def measure(
     errors = runs.alone(means, SILENT)
     found: dict[str, Any] = {"copies": copies, "rings": rings, "quantiles": _quantiles(runs, errors, count)}
     same = numbers_of_builds(errors[: rings * count].reshape(rings, count, -1))
-    together = runs.together(means, SILENT)
+    return found | _compared(runs.together(means, SILENT), same)
+
+
+def coupled(
+    rings: int, directory: Path | None, count: int = COUNT, changes: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    """Return, and print, how rings as a whole compare with their vanes, whose errors a table of others gives.
+
+    So 200 rings need no 8,000 vanes simulated alone. Every second vane of the table says what is missed.
+    """
+    case = parse_case(RIGID, "ring").replace({"pattern.vanes.count": count, **(changes or {})})
+    means, inside = Means(keep_results=False), lambda name: directory and directory / name
+    errors = BuildRuns(case, TABLE, 0, SEED, inside("table")).alone(means, SILENT)
+    plays, of_rings = (norm.ppf(SAMPLERS["lhs"](n, 1, SEED)[:, 0]) for n in (TABLE, RINGS * count))
+    order = np.argsort(plays)
+    plays, errors = plays[order], errors[order]
+    missed = np.std(errors[1:-1:2] - _read(plays[1:-1:2], plays[::2], errors[::2])) / np.std(errors)
+    print(f"every second vane of {TABLE} read from the others misses {missed:.2%} of their spread")
+    together = BuildRuns(case, RINGS * count, rings, SEED, inside("rings")).together(means, SILENT)
+    same = numbers_of_builds(_read(of_rings[: rings * count], plays, errors).reshape(rings, count, -1))
+    return {"missed": float(missed)} | _compared(together, same)
+
+
+def _read(at: NDArray[np.float64], plays: NDArray[np.float64], errors: NDArray[np.float64]) -> Any:
+    """Return errors at inputs from a table of them, shape (n, n_instants)."""
+    return np.stack([np.interp(at, plays, column) for column in errors.T], axis=1)
+
+
+def _compared(together: NDArray[np.float64], same: NDArray[np.float64]) -> dict[str, Any]:
+    """Return, and print, numbers of rings as a whole over those of the same vanes alone."""
+    found, rings = {}, len(together)
     for k, name in enumerate(NUMBERS):
         ratio = together[:, k].mean() / same[:, k].mean()
         # Of the mean of the pairs' ratios, which is nearly that.
@@ -67,8 +102,8 @@ def _quantiles(runs: BuildRuns, errors: NDArray[np.float64], count: int) -> dict
     parts = []
     for _ in range(FULL // AT_ONCE):
         fresh = runs.laws[0](random, AT_ONCE * count)
-        at = [np.interp(fresh, inputs[order], column) for column in errors[order].T]
-        parts.append(numbers_of_builds(np.stack(at, axis=1).reshape(AT_ONCE, count, -1)))
+        at = _read(fresh, inputs[order], errors[order])
+        parts.append(numbers_of_builds(at.reshape(AT_ONCE, count, -1)))
     full = np.sort(np.concatenate(parts), axis=0)
     # Of order statistics.
     width = 1.96 * np.sqrt(LEVEL * (1.0 - LEVEL) * FULL)
@@ -127,6 +162,8 @@ def main(said: list[str]) -> None:
         same = found["resumed"] == found["undisturbed"]
         told = f"{'equal' if same else 'NOT equal'} to those left alone"
         print(f"killed at {found['killed at']} of {said[1]} vanes and resumed: {told}")
+    elif said[:1] == ["rings"]:
+        coupled(int(said[1]), Path(said[2]))
     elif said:
         measure(int(said[0]), int(said[1]), Path(said[2]))
     else:

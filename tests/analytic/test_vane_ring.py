@@ -9,7 +9,9 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.cases.case import Case
 from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
+from tribodyn.mechanism.sections.charts import joint_forces
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import summarise
 
@@ -64,3 +66,21 @@ def test_elastic_levers_add_their_bending(equal: xr.Dataset) -> None:
     error = [np.abs(late(one, "output_error")).mean() for one in (equal, found)]
     bending = 0.84 * 50e-3 / (3.0 * 110e9 * 3e-3 * 10e-3**3 / 12.0)
     assert error[1] - error[0] == pytest.approx(bending, rel=0.2)
+
+
+def test_the_pull_is_shown_against_the_limit_of_the_actuator(equal: xr.Dataset) -> None:
+    limited = td.simulate(ring(4, **{"drives.piston.force_limit": "400 N"}))
+    found, force = summarise(limited), np.abs(limited["drive_force"].values)
+    assert found["drive_of_limit_max_percent"] == pytest.approx(100.0 * force.max() / 400.0)
+    share = found["drive_of_limit_sustained_percent"] / found["drive_force_sustained_N"]
+    assert share == pytest.approx(100.0 / 400.0)
+    *_, panel = joint_forces(limited)
+    drawn = {curve.name: curve.values for curve in panel.curves}
+    assert np.abs(drawn["limit, cylinder"]).max() == 400.0
+    assert np.max(drawn["limit, cylinder"] * drawn["cylinder"]) > 0.0
+    assert "drive_of_limit_max_percent" not in summarise(equal)
+
+
+def test_a_limit_is_of_what_the_drive_gives() -> None:
+    with pytest.raises(InputError, match="the limit of this drive is force_limit"):
+        ring(2, **{"drives.piston.torque_limit": "1 N m"})

@@ -99,8 +99,6 @@ def _draw_panel(axes: Axes, panel: Panel, place: FloatArray) -> None:
     for curve in panel.curves:
         look = curve.values, curve.name, COLOURS[curve.colour], DASHES[curve.dash]
         style.lines(axes, place, [look], width=0.75 * curve.width)
-    if panel.level is not None:
-        axes.axhline(panel.level, color=style.GREY, linewidth=0.8, dashes=(2, 2), zorder=1)
     style.finish(axes, y_label=panel.label)
 
 

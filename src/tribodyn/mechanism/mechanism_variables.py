@@ -184,6 +184,8 @@ VARIABLES: Final[dict[str, Variable]] = {
     ),
     **of_reversals_described(REVERSAL_PEAKS, ("joint",)),
     **described(WHOLE),
+    "drive_moment_limit": Variable("N m", "most that the motor of the joint may give", ("joint",)),
+    "drive_force_limit": Variable("N", "most that the actuator of the joint may give", ("joint",)),
     "drive_power": Variable("W", "power of drives, motors and controllers of the joint", (*TIME, "joint")),
     "energy_in": Variable("J", "work of drives and loads since the start"),
     "energy_loads": Variable("J", "work of loads since the start"),

@@ -40,6 +40,7 @@ from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanism.results.copies import why
 from tribodyn.mechanism.results.followed import (
     coordinate,
+    drive_limits,
     followed,
     power_columns,
     stresses,
@@ -319,6 +320,7 @@ class MechanismSystem:
             },
             fields={
                 "clearance": self._clearances(),
+                **drive_limits(self.case),
                 **self._errors(of_outputs, found, run),
                 **self._film_pressure(run),
                 **peaks,

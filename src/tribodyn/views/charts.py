@@ -127,7 +127,6 @@ class Panel:
     label: str  #: Quantity, and its unit in brackets.
     curves: Sequence[ChartCurve]  #: Drawn in this order.
     smooth: bool = False  #: Whether the panel opens on the smooth motion, where impacts would flatten it.
-    level: float | None = None  #: A value to compare with, drawn as a fine line; none by default.
     marks: ChartMarks | None = None  #: Points to mark in the figure; none by default.
 
     @property
@@ -148,9 +147,8 @@ class Panel:
             return self, factor
         label = _UNIT.sub(f"[{unit}]", self.label)
         scaled = [replace(curve, values=factor * curve.values) for curve in self.curves]
-        level = None if self.level is None else factor * self.level
         marks = self.marks and replace(self.marks, values=factor * self.marks.values)
-        return replace(self, label=label, curves=scaled, level=level, marks=marks), factor
+        return replace(self, label=label, curves=scaled, marks=marks), factor
 
     def ordinate(self, time: FloatArray, turns: FloatArray, settling: float) -> tuple[list[float], str]:
         """Return the ordinate that impacts or the first sample do not set, and a note on what lies beyond.

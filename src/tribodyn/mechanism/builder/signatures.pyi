@@ -323,6 +323,8 @@ class Signatures:
         position: str | Table | None = ...,
         velocity: str | Table | None = ...,
         force: str | Table | None = ...,
+        torque_limit: str | None = ...,
+        force_limit: str | None = ...,
     ) -> Self: ...
     def load(
         self,

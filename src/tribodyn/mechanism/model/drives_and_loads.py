@@ -6,7 +6,7 @@ from typing import Final, TypeAlias
 
 from tribodyn.cases.case import NamedGroup, demand, unit
 from tribodyn.cases.columns import KNOTS
-from tribodyn.cases.fields import Vector, name, vector
+from tribodyn.cases.fields import Vector, name, quantity, vector
 from tribodyn.cases.loads import BodyLoad, Doors
 from tribodyn.cases.signals import (
     AngleSignal,
@@ -68,6 +68,12 @@ class DriveKeys(NamedGroup):
     position: PositionSignal | None = None
     velocity: VelocitySignal | None = None
     force: ForceSignal | None = None
+    torque_limit: float | None = quantity(
+        None, "most that the motor may give: results say which share it gives", "", unit="N m", gt=0
+    )
+    force_limit: float | None = quantity(
+        None, "most that the actuator may give: results say which share it gives", "", unit="N", gt=0
+    )
 
     def model_post_init(self, context: object, /) -> None:
         """Check that it gives one thing, over time."""
@@ -75,6 +81,9 @@ class DriveKeys(NamedGroup):
         words = f'a drive gives one of {", ".join(GIVEN)}, such as speed = "100 rpm"'
         demand(len(given) == 1, given[1] if given[1:] else "speed", words)
         demand(self.signal.over in ("", "times"), f"{given[0]}.{self.signal.over}", "a drive follows time")
+        other, own = ("force", "torque") if GIVEN[self.gives][0] == "angle" else ("torque", "force")
+        words = f"the limit of this drive is {own}_limit"
+        demand(getattr(self, f"{other}_limit") is None, f"{other}_limit", words)
         self._check_cyclic()
 
     def _check_cyclic(self) -> None:

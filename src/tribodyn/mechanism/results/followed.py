@@ -61,6 +61,20 @@ def _opposed(case: MechanismCase, couplings: Mapping[str, FloatArray], table: Fo
     return np.asarray(np.abs(dense.product(twist, np.array(unit(direction, "direction")))))
 
 
+#: Efforts of drives, and the keys of their limits.
+LIMITS: Final = {"drive_moment": "torque_limit", "drive_force": "force_limit"}
+
+
+def drive_limits(case: MechanismCase) -> dict[str, FloatArray]:
+    """Return the most that the drives of joints may give, shape (n_joints,), NaN without a limit."""
+    found = {}
+    for effort, key in LIMITS.items():
+        limits = {drive.joint: getattr(drive, key) for drive in case.drives.values() if getattr(drive, key)}
+        if limits:
+            found[f"{effort}_limit"] = np.array([limits.get(joint, np.nan) for joint in case.joints])
+    return found
+
+
 def transmitted(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return force [N] and moment [N m] of elements, each of shape (n_t, n_elements); nothing without any."""
     if not model.elements:

@@ -10,6 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.results import readings
 from tribodyn.mechanism.results.copies import COPIES
+from tribodyn.mechanism.results.followed import LIMITS
 from tribodyn.mechanism.results.joint_numbers import DRIVEN, OUTSIDE, pair
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results import reading
@@ -38,6 +39,16 @@ def _mean_rate(dataset: xr.Dataset, energy: FloatArray) -> float:
     """Return the mean power [W] over the run from an energy since its start."""
     time = reading.column(dataset, "time")
     return float((energy[-1] - energy[0]) / (time[-1] - time[0])) if time[-1] > time[0] else math.nan
+
+
+def _of_limits(dataset: xr.Dataset) -> FloatArray:
+    """Return efforts of drives over their limits, shape (n_t, n); zero where there is none."""
+    shares = [
+        np.nan_to_num(reading.column(dataset, effort) / reading.column(dataset, f"{effort}_limit"))
+        for effort in LIMITS
+        if f"{effort}_limit" in dataset.variables
+    ]
+    return np.hstack(shares or [np.zeros((dataset.sizes["time"], 1))])
 
 
 def _power(dataset: xr.Dataset) -> float:
@@ -122,6 +133,15 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "Drive",
         "Largest force of an actuator",
         lambda d: reading.column(d, "drive_force"),
+    ),
+    **pair(
+        ("drive_of_limit_sustained_percent", "drive_of_limit_max_percent"),
+        "Drive, of its limit",
+        "%",
+        "Drive",
+        "Largest force or moment of a drive over its limit",
+        _of_limits,
+        scale=100.0,
     ),
     **pair(
         ("drive_power_sustained_W", "drive_power_max_W"),
@@ -214,6 +234,8 @@ KEY_NUMBERS: Final = (
     "peak_pressure_MPa",
     "offset_max_um",
     "drive_moment_sustained_Nm",
+    "drive_force_sustained_N",
+    "drive_of_limit_sustained_percent",
     "joint_force_max_N",
     "energy_residual_percent",
 )

@@ -91,13 +91,25 @@ def motion(dataset: xr.Dataset) -> list[Panel]:
     )
 
 
+def _efforts(dataset: xr.Dataset, effort: str) -> list[ChartCurve]:
+    """Return efforts of the drives, and lines at their limits on the side of the largest."""
+    names, values = _names(dataset, "joint"), dataset[effort].values
+    found = curves(names, values)
+    limits = dataset[f"{effort}_limit"].values if f"{effort}_limit" in dataset else np.empty(0)
+    for k in np.flatnonzero(np.isfinite(limits)):
+        side = np.sign(values[np.argmax(np.abs(values[:, k])), k]) if len(values) else 1.0
+        line = np.full(len(values), side * limits[k])
+        found.append(ChartCurve(f"limit, {names[k]}", line, "vermilion", "longdash"))
+    return found
+
+
 def joint_forces(dataset: xr.Dataset) -> list[Panel]:
     """Return sizes of the forces in the joints [N] and the efforts of drives."""
     joints = _names(dataset, "joint")
     return _panels(
         ("force in joint [N]", curves(joints, sizes(dataset, "reaction_force"))),
-        ("drive moment [N m]", curves(joints, dataset["drive_moment"].values)),
-        ("drive force [N]", curves(joints, dataset["drive_force"].values)),
+        ("drive moment [N m]", _efforts(dataset, "drive_moment")),
+        ("drive force [N]", _efforts(dataset, "drive_force")),
     )
 
 
