@@ -12,8 +12,10 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanism.sections.charts import joint_forces
+from tribodyn.mechanism.sections.copies import COPIES, around
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import summarise
+from tribodyn.views.section import angle_of, coordinates
 
 RADIAL: Final = "joints.trunnion.clearance.radial"
 RIGID: Final = 'elastic = "beam"\n'
@@ -76,11 +78,35 @@ def test_the_pull_is_shown_against_the_limit_of_the_actuator(equal: xr.Dataset) 
     assert share == pytest.approx(100.0 / 400.0)
     *_, panel = joint_forces(limited)
     drawn = {curve.name: curve.values for curve in panel.curves}
-    assert np.abs(drawn["limit, cylinder"]).max() == 400.0
-    assert np.max(drawn["limit, cylinder"] * drawn["cylinder"]) > 0.0
+    reached = {"upper": drawn["cylinder"].max() > 0.0, "lower": drawn["cylinder"].min() < 0.0}
+    assert {side: f"{side} limit, cylinder" in drawn for side in reached} == reached
+    assert set(np.abs(np.concatenate([drawn[name] for name in drawn if "limit" in name]))) == {400.0}
     assert "drive_of_limit_max_percent" not in summarise(equal)
 
 
 def test_a_limit_is_of_what_the_drive_gives() -> None:
     with pytest.raises(InputError, match="the limit of this drive is force_limit"):
         ring(2, **{"drives.piston.torque_limit": "1 N m"})
+
+
+def test_vanes_stand_around_their_axis_with_the_worst_one_marked() -> None:
+    loose = td.simulate(ring(4, **{"joints.trunnion[3].clearance.radial": "40 um"}))
+    (one,) = around(loose)
+    payload = COPIES.payload(loose)
+    assert payload is not None
+    (drawn,) = payload["parts"]
+    curves = {curve["name"]: curve for curve in drawn["panels"][0]["curves"]}
+    assert curves["vane[3], furthest from the mean"]["colour"] == "vermilion"
+    # The third of four, clockwise from above, is below; a loose one is further out at one end.
+    line = one.curve("", np.repeat(one.angles[2], 2), np.array([one.low[2], one.high[2]]), "ink")
+    assert line.x == pytest.approx(0.0, abs=1e-9 * one.span)
+    assert line.values == pytest.approx([one.middle - one.low[2], one.middle - one.high[2]])
+    assert np.argmax(np.maximum(one.high, -one.low)) == 2
+
+
+def test_charts_go_over_the_position_of_the_actuator(equal: xr.Dataset) -> None:
+    label, values = angle_of(equal, "cylinder")
+    assert label == "position of cylinder [mm]"
+    time = equal["time"].values
+    assert values == pytest.approx(-20.0 * (1.0 - np.cos(time)), abs=0.1)
+    assert coordinates(equal, 1.0)[0]["label"] == label

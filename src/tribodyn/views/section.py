@@ -80,7 +80,9 @@ _LEAST: Final = 1.0  #: Range of an angle over which a chart is of use [deg].
 
 
 def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:
-    """Return the label of a joint's angle and its values within one turn [deg], NaN where a turn ends.
+    """Return label and values of a joint's angle within one turn [deg], NaN where a turn ends.
+
+    Of a slide that is driven it is the position [mm].
 
     Raises InputError if there is no such joint.
     """
@@ -88,25 +90,40 @@ def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:
     if joint not in names:
         words = f"{as_given(joint)}; allowed: a joint, {', '.join(names) or 'none here'}{meant(joint, names)}"
         raise InputError(words, key="over")
-    angle = np.degrees(dataset["joint_angle"].values[:, names.index(joint)])
-    if np.ptp(angle) > 360.0:
-        angle = angle % 360.0
-        angle[1:][np.abs(np.diff(angle)) > 180.0] = np.nan
-    return f"angle of {joint} [°]", angle
+    label, values = _coordinate(dataset, names.index(joint))
+    if label.startswith("angle") and np.ptp(values) > 360.0:
+        values = values % 360.0
+        values[1:][np.abs(np.diff(values)) > 180.0] = np.nan
+    return label, values
+
+
+def _coordinate(dataset: xr.Dataset, joint: int) -> tuple[str, FloatArray]:
+    """Return label and values of the coordinate of a joint: the position of a driven slide, or its angle."""
+    name = dataset["joint"].values[joint]
+    if "displacement" in dataset and np.nan_to_num(dataset["drive_force"].values[:, joint]).any():
+        return f"position of {name} [mm]", 1e3 * dataset["displacement"].values[:, joint, 2]
+    return f"angle of {name} [°]", np.degrees(dataset["joint_angle"].values[:, joint])
 
 
 def coordinates(dataset: xr.Dataset, scale: float) -> list[dict[str, Any]]:
-    """Return angles of joints over time, those of driven joints first, as the page reads them.
+    """Return coordinates of joints over time, those of driven joints first, as the page reads them.
 
     ``scale``: of the times of the page.
     """
     if "joint_angle" not in dataset or "drive_moment" not in dataset:
         return []
-    angle = np.degrees(dataset["joint_angle"].values)
-    driven = np.nan_to_num(np.abs(dataset["drive_moment"].values)).max(axis=0) > 0.0
-    order = np.lexsort((-np.ptp(angle, axis=0), ~driven))
-    chosen = [k for k in order.tolist() if np.ptp(angle[:, k]) > _LEAST][:_MOST]
-    time, names = series(dataset, "time", scale), dataset["joint"].values
+    labels, columns = zip(*(_coordinate(dataset, k) for k in range(dataset.sizes["joint"])), strict=True)
+    values, time, names = np.stack(columns, axis=1), series(dataset, "time", scale), dataset["joint"].values
+    efforts = (np.nan_to_num(np.abs(dataset[name].values)) for name in ("drive_moment", "drive_force"))
+    driven = sum(efforts).max(axis=0) > 0.0
+    order = np.lexsort((-np.ptp(values, axis=0), ~driven))
+    chosen = [k for k in order.tolist() if np.ptp(values[:, k]) > _LEAST][:_MOST]
     return [
-        {"name": str(names[k]), "x": stepped(time, 0.0), "y": stepped(angle[:, k], _FINE)} for k in chosen
+        {
+            "name": str(names[k]),
+            "label": labels[k],
+            "x": stepped(time, 0.0),
+            "y": stepped(values[:, k], _FINE),
+        }
+        for k in chosen
     ]

@@ -192,7 +192,7 @@ def test_orbits_without_velocities_join_the_rows_by_lines() -> None:
 )
 def test_every_section_has_data_where_the_result_has(section) -> None:
     whole = section.payload(RESULT)
-    assert (whole is None) == (section.name in ("wear-history", "modes", "guides"))
+    assert (whole is None) == (section.name in ("wear-history", "modes", "guides", "copies"))
     empty = section.payload(RESULT.isel(time=slice(0, 0), frame=slice(0, 0)))
     assert empty is None or section.name == "wear"
 

@@ -7,6 +7,7 @@ import numpy as np
 from tribodyn.mechanism.results.readings import offset, sizes
 from tribodyn.mechanism.sections import mechanism
 from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
+from tribodyn.mechanism.sections.copies import COPIES
 from tribodyn.mechanism.sections.joints import FILM_PRESSURE, HODOGRAPHS, ORBITS, PRESSURE, REACTIONS, WEAR
 from tribodyn.views.common import Overlay, OverlayQuantity
 from tribodyn.views.section import OVER_TIME, Chapter
@@ -25,7 +26,7 @@ CHAPTERS: Final = (
         "time",
         "Over time",
         OVER_TIME,
-        (*(chart.section for chart in CHARTS), REACTIONS, HODOGRAPHS, ENERGY.section),
+        (*(chart.section for chart in CHARTS), COPIES, REACTIONS, HODOGRAPHS, ENERGY.section),
     ),
     Chapter("worn", "Wear", "What is worn off the joints.", (WEAR.section, WEAR_HISTORY.section)),
 )

@@ -92,14 +92,15 @@ def motion(dataset: xr.Dataset) -> list[Panel]:
 
 
 def _efforts(dataset: xr.Dataset, effort: str) -> list[ChartCurve]:
-    """Return efforts of the drives, and lines at their limits on the side of the largest."""
+    """Return efforts of the drives, and lines at their limits on the sides that they reach."""
     names, values = _names(dataset, "joint"), dataset[effort].values
     found = curves(names, values)
     limits = dataset[f"{effort}_limit"].values if f"{effort}_limit" in dataset else np.empty(0)
     for k in np.flatnonzero(np.isfinite(limits)):
-        side = np.sign(values[np.argmax(np.abs(values[:, k])), k]) if len(values) else 1.0
-        line = np.full(len(values), side * limits[k])
-        found.append(ChartCurve(f"limit, {names[k]}", line, "vermilion", "longdash"))
+        for side, sign in (("upper", 1.0), ("lower", -1.0)):
+            if np.any(sign * values[:, k] > 0.0):
+                line = np.full(len(values), sign * limits[k])
+                found.append(ChartCurve(f"{side} limit, {names[k]}", line, "vermilion", "longdash"))
     return found
 
 

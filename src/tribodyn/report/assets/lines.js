@@ -81,7 +81,7 @@ class Lines {
     this.note.hidden = !this.note.textContent;
   }
 
-  /** Offer time and the angles of joints as the abscissa. */
+  /** Offer time, the angles of joints and the positions of driven slides as the abscissa. */
   chooseFrom(coordinates) {
     const names = coordinates.map(({ name }) => name);
     this.chooser.hidden = !names.length;
@@ -89,7 +89,7 @@ class Lines {
     this.offered = names.join("\n");
     const before = this.over.value;
     const option = (value, text) => element("option", { value }, text);
-    this.over.replaceChildren(option("", "time"), ...names.map((name) => option(name, `angle of ${name}`)));
+    this.over.replaceChildren(option("", "time"), ...coordinates.map(({ name, label }) => option(name, label.split(" [")[0])));
     this.over.value = names.includes(before) ? before : "";
   }
 
@@ -229,14 +229,14 @@ function alike(panel, others) {
   return { ...found, curves: found.curves.map((curve) => ({ ...curve, y: curve.y.map((value) => factor * value) })) };
 }
 
-/** Return charts over time as charts over the angle of a joint [°], within one turn. */
+/** Return charts over time as charts over the coordinate of a joint, an angle within one turn. */
 function overCoordinate(data, name) {
   const found = data.coordinates.find((one) => one.name === name);
   if (!found) return data;
   const [low, high] = ends([found.y]);
-  const turn = high - low > 360 ? 360 : 0;
+  const turn = found.label.startsWith("angle") && high - low > 360 ? 360 : 0;
   const panels = data.panels.map((panel) => ({ ...panel, curves: panel.curves.map((curve) => along(curve, found, turn)) }));
-  return { ...data, panels, x_label: `angle of ${name} [°]`, time: false, turns: [], windows: [] };
+  return { ...data, panels, x_label: found.label, time: false, turns: [], windows: [] };
 }
 
 /** Return a curve over the values of another one at the same times, with a gap where a turn ends. */
