@@ -97,10 +97,12 @@ def _snapped(times: FloatArray, targets: FloatArray, tolerance: float) -> FloatA
     return snapped
 
 
-CHUNK: Final = 512  #: Rows collected between two visits.
+CHUNK: Final = 512  #: Rows collected between two visits, at most,
+CHUNK_ROOM: Final = 2_000_000  #: and their size [B]: what stays in a cache is read from there.
 #: A stretch is thinned on the way when it holds this many times the rows that it may keep.
 _UNTHINNED: Final = 4
-ROOM: Final = 64_000_000  #: Size of its rows from which it is thinned at twice these rows already [B].
+#: Size of its rows from which it is thinned at twice these rows already [B]; it keeps no more than half of it.
+ROOM: Final = 64_000_000
 
 _MOVED: Final = 64  #: Rows moved at once, at most: where they overlap, NumPy copies them first.
 #: Least size of a block of rows [B]: NumPy asks for large pages from 4 MB on; each costs when first used.
@@ -128,21 +130,24 @@ class Followed:
     ) -> None:
         self.following = following or Following(np.empty((0, 2)), 1, ())
         self.windows = np.append(self.following.windows, [[np.inf, np.inf]], axis=0)
-        size = CHUNK if following else 1
+        size = max(min(CHUNK, CHUNK_ROOM // (8 * max(n_observed, 1))), 1) if following else 1
         self.times, self.rows = np.empty(size), np.empty((size, n_observed))
         places = np.arange(n_observed) if kept is None else kept
         self._kept, self._n_kept = kept, places.size
-        most = self.following.most
-        self._full = min(max(ROOM // (8 * max(self._n_kept, 1)), 2 * most), _UNTHINNED * most)
+        most, room = self.following.most, ROOM // (8 * max(self._n_kept, 1))
+        self._most = max(min(most, room // 2), 2 * len(self.following.watched) + 1)
+        self._full = min(max(room, 2 * self._most), _UNTHINNED * most)
         self._watched = [np.searchsorted(places, watched) for watched in self.following.watched]
         self._stretches: dict[int, _Stretch] = {}
+        self._spare: list[FloatArray] = []
 
     def collect(self, n: int) -> None:
         """Take over the first ``n`` rows."""
         window = np.searchsorted(self.windows[:, 1], self.times[:n])
         for k in np.unique(window).tolist():
             first, last = np.searchsorted(window, [k, k + 1])
-            self._add(self._stretches.setdefault(k, _Stretch(self._n_kept)), int(first), int(last))
+            stretch = self._stretches.setdefault(k, _Stretch(self._n_kept, self._spare))
+            self._add(stretch, int(first), int(last))
 
     def _add(self, stretch: _Stretch, first: int, last: int) -> None:
         """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
@@ -163,6 +168,7 @@ class Followed:
         self._stretches.clear()
         for stretch in stretches:
             stretch.keep(self._chosen(stretch))
+        self._spare.clear()
         every = np.concatenate([times, *(stretch.times for stretch in stretches)])
         order = np.argsort(every, kind="stable")
         place = np.empty_like(order)
@@ -178,9 +184,9 @@ class Followed:
 
     def _chosen(self, stretch: _Stretch) -> NDArray[np.intp]:
         """Return the rows of a stretch that are kept."""
-        if stretch.n <= self.following.most:
+        if stretch.n <= self._most:
             return np.arange(stretch.n)
-        return thinning(np.concatenate([*map(self._sizes, stretch.blocks())]), self.following.most)
+        return thinning(np.concatenate([*map(self._sizes, stretch.blocks())]), self._most)
 
     def _sizes(self, rows: FloatArray) -> FloatArray:
         """Return the quantities whose peaks are kept, a column each: numbers, and vectors by lengths."""
@@ -192,10 +198,13 @@ class Followed:
 
 
 class _Stretch:
-    """Rows of a stretch in blocks, so that more of them need no other place."""
+    """Rows of a stretch in blocks, so that more of them need no other place.
 
-    def __init__(self, n_kept: int) -> None:
-        self.n, self.times = 0, np.empty(0)
+    Blocks given up stay in ``spare``: memory that is new takes longer to come by than to fill.
+    """
+
+    def __init__(self, n_kept: int, spare: list[FloatArray]) -> None:
+        self.n, self.times, self._spare = 0, np.empty(0), spare
         self._blocks: list[FloatArray] = []
         self._size = max(CHUNK, BLOCK // (8 * max(n_kept, 1)))
         self._shape = self._size, n_kept
@@ -207,7 +216,7 @@ class _Stretch:
         while first < len(rows):
             used = self.n % self._size
             if used == 0:
-                self._blocks.append(np.empty(self._shape))
+                self._blocks.append(self._spare.pop() if self._spare else np.empty(self._shape))
             part = rows[first : first + self._size - used]
             take_places(part, places, self._blocks[-1][used : used + len(part)])
             self.n += len(part)
@@ -224,7 +233,9 @@ class _Stretch:
                 row = self._blocks[old // self._size][old % self._size]
                 self._blocks[new // self._size][new % self._size] = row
         self.n, self.times = chosen.size, self.times[chosen]
-        del self._blocks[-(-self.n // self._size) :]
+        used = -(-self.n // self._size)
+        self._spare += self._blocks[used:]
+        del self._blocks[used:]
 
 
 def take_places(rows: FloatArray, places: NDArray[np.intp] | None, out: FloatArray) -> None:

@@ -65,7 +65,7 @@ def _in_body(body: Record, left: FloatArray, right: FloatArray) -> float:
 def choose_rows(parts: Parts, now: Now, matrix: FloatMatrix) -> None:
     """Mark the rows that are dependent, by Cholesky's decomposition of G M⁻¹ Gᵀ with pivoting.
 
-    ``matrix`` (n_rows, n_rows) is work space.
+    ``matrix`` (n_rows, n_rows) is work space. Most of its entries are zero: few rows share bodies.
     """
     n = matrix.shape[0]
     for k in range(parts.couplings.size):
@@ -88,7 +88,7 @@ def choose_rows(parts: Parts, now: Now, matrix: FloatMatrix) -> None:
         row = parts.couplings[best_k].first_row + best_m
         now.couplings[best_k].dependent[best_m] += 2.0
         for i in range(n):
-            if i != row:
+            if i != row and matrix[i, row] != 0.0:
                 factor = matrix[i, row] / matrix[row, row]
                 for j in range(n):
                     if j != row:

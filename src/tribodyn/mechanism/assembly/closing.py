@@ -30,6 +30,7 @@ from tribodyn.mechanism.model.drives_and_loads import GIVEN
 CLOSED: Final = 1.0e-12  #: Residual, in units of the mechanism's size or in radians, of a joint that closes.
 CLOSES: Final = 1.0e-9  #: The same, of joints of a mechanism on its way.
 _MOST_STEPS: Final = 60
+_TRIES: Final = 4  #: Times that joints are closed as runs do where rows depend on each other.
 #: Largest turn [rad], or way in units of the size, of one step, so that the branch that was drawn is kept.
 _LONGEST: Final = 0.2
 _WRONG: Final = 0.1
@@ -210,14 +211,23 @@ class System:
         self._wait = 0
 
     def close_fast(self) -> float:
-        """Move the bodies onto the constraints as runs do, from near by; return the gap left."""
-        n = len(self.rows)
-        if self.parts.constants.rank < n and self._wait <= 0:
-            choose_rows(self.parts, self.now, np.zeros((n, n)))
-            self._wait = 1 + (n // SMALL) ** 3
+        """Move the bodies onto the constraints as runs do, from near by; return the gap left.
+
+        Where joints stay open, rows that were independent at an earlier position may hardly be: they are
+        chosen anew.
+        """
+        n, gap = len(self.rows), math.inf
+        some_depend = self.parts.constants.rank < n
+        for k in range(_TRIES if some_depend else 1):
+            if some_depend and (self._wait <= 0 or k > 0):
+                choose_rows(self.parts, self.now, np.zeros((n, n)))
+                self._wait = 1 + (n // SMALL) ** 3
+            solution.close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
+            gap = self.gap()
+            if gap <= CLOSES:
+                break
         self._wait -= 1
-        solution.close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
-        return self.gap()
+        return gap
 
     def move_with_drives(self, direction: float) -> None:
         """Fill the velocities of the drives, running forward (1) or back (−1); freedoms are at rest."""

@@ -225,20 +225,21 @@ def shortest(matrix: FloatArray, right: FloatArray) -> FloatArray:
     return dense.lstsq(matrix, right)
 
 
-def factors(matrix: FloatArray) -> MultifrontalQR | None:
+def factors(matrix: FloatArray, rank: int | None = None) -> MultifrontalQR | None:
     """Return the factors of a large matrix with rows of length one; None of a small one.
 
-    None, too, where its rank is doubtful: singular values decide it then.
+    None, too, where its rank is doubtful: singular values decide it then. It is not where it is the ``rank``
+    that is known, however small the least of them.
     """
     if max(matrix.shape, default=0) < LARGE or 0 in matrix.shape:
         return None
-    return _factors(np.ascontiguousarray(matrix).tobytes(), matrix.shape)
+    return _factors(np.ascontiguousarray(matrix).tobytes(), matrix.shape, rank)
 
 
 @lru_cache(_KEPT)
-def _factors(content: bytes, shape: tuple[int, int]) -> MultifrontalQR | None:
+def _factors(content: bytes, shape: tuple[int, int], rank: int | None) -> MultifrontalQR | None:
     found = MultifrontalQR(np.frombuffer(content).reshape(shape))
-    return found if found.is_certain(DEPENDENT) else None
+    return found if found.is_certain(0.0 if found.rank == rank else DEPENDENT) else None
 
 
 def null_space(matrix: FloatArray, rank: int) -> FloatArray:
@@ -252,7 +253,7 @@ def null_space(matrix: FloatArray, rank: int) -> FloatArray:
 def least_squares(matrix: FloatArray, right: FloatArray, rank: int) -> FloatArray:
     """Return the shortest x (n,) with the least |matrix x − right|, for a matrix (m, n) of known rank."""
     size = float(np.max(np.abs(matrix), initial=0.0)) or 1.0
-    found = factors(matrix / size)
+    found = factors(matrix / size, rank)
     if found is not None and found.rank == rank:
         return found.solve(right / size)
     return RowSpace(matrix, rank).solve(right)
