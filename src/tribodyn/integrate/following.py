@@ -101,7 +101,7 @@ CHUNK: Final = 512  #: Rows collected between two visits, at most,
 CHUNK_ROOM: Final = 2_000_000  #: and their size [B]: what stays in a cache is read from there.
 #: A stretch is thinned on the way when it holds this many times the rows that it may keep.
 _UNTHINNED: Final = 4
-#: Size of its rows from which it is thinned at twice these rows already [B]; it keeps no more than half of it.
+#: Size of its rows from which it is thinned at twice these rows already [B]; half of it is kept at most.
 ROOM: Final = 64_000_000
 
 _MOVED: Final = 64  #: Rows moved at once, at most: where they overlap, NumPy copies them first.

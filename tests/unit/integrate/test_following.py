@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.core.problem import CompiledFunctions, Following, Problem
 from tribodyn.integrate import integrate
-from tribodyn.integrate.following import CHUNK, Followed, thinning
+from tribodyn.integrate.following import CHUNK, CHUNK_ROOM, ROOM, Followed, thinning
 
 WINDOWS = np.array([[0.0, 0.3], [1.0, 1.4]])
 
@@ -155,6 +155,23 @@ def test_what_is_kept_does_not_hang_on_the_clock():
         others = walked(chance.integers(0, longest, 20_000))
         np.testing.assert_array_equal(others[0], t)
         np.testing.assert_array_equal(others[1], rows)
+
+
+def test_long_rows_are_kept_within_their_room_with_their_peaks():
+    n = 20_000
+    followed = Followed(Following(np.array([[0.0, 1.0]]), 2000, ((0,),)), n)
+    t = np.linspace(0.0, 1.0, 1500, endpoint=False)
+    values = np.random.default_rng(2).normal(size=t.size)
+    chunk = followed.times.size
+    assert 1 < followed.rows.shape[0] == chunk <= CHUNK_ROOM / (8 * n)
+    for begin in range(0, t.size, chunk):
+        part = slice(begin, begin + chunk)
+        followed.times[: t[part].size], followed.rows[: t[part].size] = t[part], values[part, None]
+        followed.collect(t[part].size)
+    times, rows = followed.merged(np.empty(0), np.empty((0, n)))
+    assert times.size > 2
+    assert rows.nbytes <= ROOM / 2
+    assert (rows[:, 0].min(), rows[:, 0].max()) == (values.min(), values.max())
 
 
 @pytest.mark.parametrize("places", [None, np.array([1, 3])])

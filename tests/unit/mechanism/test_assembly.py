@@ -25,10 +25,14 @@ import tribodyn as td
 from tribodyn.cases.signals import AngleSignal
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.assembly.assembly import assemble
+from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.parts_by_number import Model, model_of
 from tribodyn.mechanism.assembly.passage import drive_through
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.descriptor import TEMPLATES
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import DriveKeys
+from tribodyn.mechanisms.catalogue import parse_case
 
 
 def four_bar(crank: float = 0.2) -> Model:
@@ -215,6 +219,15 @@ def test_a_loop_that_does_not_close_over_the_drive_is_found() -> None:
     assert 0.0 < late.time < 0.5
     assert "does not close" in late.finding.text
     assert drive_through(assemble(four_bar()), 0.7).finding is None
+
+
+def test_a_ring_with_many_dependent_rows_closes_as_runs_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Rows that are independent as drawn hardly are at the end of the stroke.
+    ring = parse_case(TEMPLATES["vsv-ring"].text, "ring").replace({"pattern.vanes.count": 20})
+    assert isinstance(ring, MechanismCase)
+    assembly = assemble(model_of(ring))
+    monkeypatch.setattr(System, "close", lambda *_: pytest.fail("joints stay open"))
+    assert drive_through(assembly, ring.span).finding is None
 
 
 def test_speeds_that_contradict_a_drive_are_refused() -> None:

@@ -125,6 +125,15 @@ def test_least_squares_and_null_space_are_those_of_singular_values() -> None:
     np.testing.assert_allclose(free @ free.T, rows[rank:].T @ rows[rank:], atol=1e-11)
 
 
+def test_a_rank_that_is_known_needs_no_singular_values() -> None:
+    given = graph(6, redundant=1)
+    given[:, ::5] *= 1e-8
+    exact, rank = np.random.default_rng(4).normal(size=given.shape[1]), given.shape[1]
+    assert factors(given) is None
+    assert factors(given, rank) is not None
+    np.testing.assert_allclose(least_squares(given, given @ exact, rank), exact, atol=1e-6)
+
+
 @pytest.mark.parametrize("held", [5, 6])
 def test_motions_that_some_rows_hold_and_others_leave(held: int) -> None:
     given = graph(held)
