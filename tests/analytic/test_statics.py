@@ -410,3 +410,28 @@ def test_an_arm_rests_on_its_stop_as_far_in_as_its_weight_presses_it() -> None:
     result = td.simulate(drawn)
     angle = result["joint_angle"].values[-1, 0]
     assert angle == pytest.approx(-np.radians(0.1) - 2.0 * 9.81 * 0.1 * np.cos(angle) / 1000.0, rel=1e-8)
+
+
+def test_a_shaft_walks_along_its_bore_where_hysteresis_is_asked_for() -> None:
+    """Friction points against the whole slip: dz = R dθ F/√((μN)² − F²) for a force F along the axis."""
+    run = {"analysis": "static", "duration": "2 s", "positions": 41}
+    drawn = td.Mechanism("Walk", friction={"rest": True}, run=run)
+    drawn.body("shaft", mass="1 kg", centre="0, 0, 0 mm", inertia="1e-4, 1e-4, 1e-4 kg m^2")
+    drawn.revolute("pivot", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 0, 1])
+    sizes = {"radius": "10 mm", "radial": "20 um", "length": "20 mm", "axial": "1 mm"}
+    drawn.clearance("pivot", **sizes, friction_coefficient=0.1, nodes_around=48, nodes_along=4)
+    drawn.drive("motor", "pivot", speed="1e-2 rad/s")
+    where = {"body": "shaft", "point": "0, 0, 0 mm"}
+    drawn.load("across", **where, direction=[0, -1, 0], force="100 N")
+    table = {"times": "0, 0.2, 0.21, 5 s", "values": "-5, -5, 5, 5 N", "interpolation": "linear"}
+    drawn.load("along", **where, direction=[0, 0, 1], force=table)
+    case = drawn.case()
+    found = td.simulate(case)
+    late = found["time"].values > 0.5
+    rise = np.diff(found["position"].values[late, 0, 2]) / np.diff(1e-2 * found["time"].values[late])
+    # Around an arc the pressure sums to some 1 % more than the load.
+    np.testing.assert_allclose(rise, 0.01 * 5.0 / math.sqrt(75.0), rtol=0.02)
+    pushed = found["reaction_force_global"].values[late].reshape(-1, 3)[:, 2]
+    np.testing.assert_allclose(pushed, -5.0, rtol=1e-4)
+    jumped = td.simulate(case.replace({"friction.rest": False}))["position"].values[late, 0, 2]
+    assert np.ptp(jumped) < 1e-7

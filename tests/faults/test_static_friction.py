@@ -100,11 +100,9 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
     ) == noted
 
 
-@pytest.mark.parametrize(
-    "seed", [pytest.param(1, marks=pytest.mark.long), 2, pytest.param(7, marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("seed", [pytest.param(1, marks=pytest.mark.long), 2])
 def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seed: int) -> None:
-    """At most positions: elsewhere the dynamic run rests in another state, that of seed 3 throughout."""
+    """Also while shafts walk from one end of their bores to the other."""
     case = swinging(seed)
     static, slow = (width(td.simulate(case.replace(keys))) for keys in (STATIC, AT_REST))
-    assert np.median(np.abs(slow / static - 1.0)) < 0.02
+    assert np.mean(np.abs(slow - static)) < 0.02 * np.mean(np.abs(slow))

@@ -5,6 +5,7 @@ springs, and of all loads as the bodies turn. Velocities along them are those at
 length; inertia forces along them are left out.
 """
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
-from tribodyn.kernels.mechanism.data import MechanismData
+from tribodyn.kernels.mechanism.data import N_STATES, VELOCITY, MechanismData
 from tribodyn.mechanism.analyses.linearised import NEVER_ENTERED, LinearEquations
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
@@ -65,6 +66,7 @@ class LedLoads(JointLoads):
         self.data = developed(self.data, assembly.model, slip)
         self._direction = 1.0
         self._centred: LinearEquations | None = None
+        self._walked: Callable[[FloatArray], FloatArray] | None = None
         for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):
             system.set_rank(rank)
             system.known_rank = rank
@@ -88,6 +90,28 @@ class LedLoads(JointLoads):
                 now.couplings["angle_mark"] = marks
         self.state[:], self._direction, self.largest = state, direction, 0.0
         self._centred, self.waits = centred, centred is not None
+
+    def walk(self, walked: Callable[[FloatArray], FloatArray] | None, pace: float) -> None:
+        """Let shafts slip by their ways since the last position, too: ``pace`` positions in a second.
+
+        ``walked`` returns these ways of all bodies at a state, as their velocities over the pace, (n, 6).
+        """
+        self._walked, self.pace = walked, 0.0 if walked is None else pace
+
+    def walking(self) -> FloatArray:
+        """Return the state with the velocities by which shafts slip, shape (13 n,)."""
+        state = self.state.copy()
+        if self._walked is not None and self.slipping is self.velocity:
+            state.reshape(-1, N_STATES)[:, VELOCITY:] += self.pace * self._walked(state)
+        return state
+
+    def _evaluated(self) -> FloatArray:
+        kept = self.slipping
+        if self._walked is not None and kept is self.velocity:
+            self.slipping = self.velocity + self.pace * self._walked(self.state)
+        found = super()._evaluated()
+        self.slipping = kept
+        return found
 
     def hold(self, times: FloatArray) -> None:
         """Hold drives and loads at some times [s] as they are then."""

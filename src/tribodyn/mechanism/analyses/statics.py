@@ -4,11 +4,17 @@ At each position the bodies are those of the ideal mechanism, displaced to where
 all loads and the inertia forces of the ideal motion, by :mod:`tribodyn.mechanism.assembly.equilibrium`. The
 dynamics of the motion within the clearances is left out: impacts, vibration, and damping. Friction opposes
 the ideal motion, so positions that are passed in both directions have two equilibria.
+
+Where hysteresis is asked for, each position also follows from those before. Slip is that of the ideal motion
+and of the ways u of the bodies from it, u̇ = (3 u − 4 u₋₁ + u₋₂)/(2 h) with the time h of the drives between
+two positions; by u alone in the first ones. A shaft then walks along its bore as it does in slow motion, by
+friction that points against its whole slip, and does not jump. The path depends on no speed.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
 from typing import ClassVar, Final
 
 import numpy as np
@@ -83,6 +89,9 @@ def find_equilibria(
             "freedoms that drives leave rest where loads and springs balance: inertia forces along them, as "
             "those that lift the balls of a governor, are left out; a dynamic run has them"
         )
+    if equilibria.jumps:
+        words = "shafts were put into equilibrium without friction on their ways from the position before"
+        notes.append(f"at {equilibria.jumps} positions {words}: hysteresis may jump there")
     return replace(found, notes=tuple(notes) if found.t.size else ())
 
 
@@ -152,6 +161,8 @@ class Equilibria:
         Slip velocity at which friction is developed [m/s].
     unbalance
         Largest load so far that does not balance, over all loads.
+    jumps
+        Number of positions so far where no equilibrium near the last one was found, with friction on the way.
     MUST_REST
         Whether ideal joints must be at rest, too.
     """
@@ -165,6 +176,9 @@ class Equilibria:
         self._reason = unreached(times, found)
         self._ideal = in_body_axes(found).reshape(len(found), -1, N_STATES)
         self._ways: list[FloatArray] = []
+        run = assembly.model.case.run
+        asks = assembly.model.case.friction.rest or run.directions == "both"
+        self._walks, self.jumps = asks and run.analysis == "static", 0
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank, self.slip = counterpart.independence()[0], _CREEP * _fastest(self._ideal, counterpart.size)
         self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
@@ -178,13 +192,15 @@ class Equilibria:
         if self.middle is not None:
             equations, marks = self.middle.linear.at(t, ideal.ravel()), self.middle.marks
         starts = [*(self._displaced(ideal, ways) for ways in self._expected()), ideal]
-        for start in starts:
+        for walks, start in product((True, False) if self._walks else (False,), starts):
+            self._walk(number, ideal, walks=walks)
             self._loads.at(t, start.ravel(), direction, equations, marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
+                self.jumps += self._walks and not walks
                 self._require_balance(number)
                 self._remember(ideal)
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
-                return self._loads.state
+                return self._loads.walking()
         raise self._failure(number, f"no static equilibrium was found: {self._why_not()}")
 
     def _in_the_middle(self, number: int) -> FloatArray:
@@ -243,10 +259,23 @@ class Equilibria:
 
     def _remember(self, ideal: FloatArray) -> None:
         """Keep the displacements from the ideal state, shape (n_bodies, 6), with those before."""
-        real = self._loads.state.reshape(-1, N_STATES)
-        after, before = (rotations(state[:, ORIENTATION:VELOCITY]) for state in (real, ideal))
-        ways = real[:, :ORIENTATION] - ideal[:, :ORIENTATION]
-        self._ways = [*self._ways[-1:], np.hstack([ways, (after * before.inv()).as_rotvec()])]
+        self._ways = [*self._ways[-1:], _ways(self._loads.state, ideal)]
+
+    def _walk(self, number: int, ideal: FloatArray, *, walks: bool) -> None:
+        """Let friction follow the displacements since the last position, too, or the ideal motion alone."""
+        passed = abs(float(np.diff(self._path.of_drives[number - 1 : number + 1]).sum()))
+        if not (walks and self._ways and passed > 0.0):
+            self._loads.walk(None, 0.0)
+            return
+        # Two steps back: the rate is then exact to the second order.
+        last = (4.0 * self._ways[-1] - self._ways[0]) / 3.0 if len(self._ways) > 1 else self._ways[-1]
+
+        def walked(state: FloatArray) -> FloatArray:
+            ways = _ways(state, ideal) - last
+            ways[:, 3:] = rotations(ideal[:, ORIENTATION:VELOCITY]).inv().apply(ways[:, 3:])
+            return ways
+
+        self._loads.walk(walked, (0.5 + 0.5 * len(self._ways)) / passed)
 
     def _require_balance(self, number: int) -> None:
         """Refuse an equilibrium of the clearances alone, where the mechanism as a whole is pushed away."""
@@ -261,6 +290,14 @@ class Equilibria:
         return IntegrationFailure(
             float(self._path.times[number]), f"with {where}, {words}" if where else words
         )
+
+
+def _ways(state: FloatArray, ideal: FloatArray) -> FloatArray:
+    """Return displacements and rotations from the ideal state (n_bodies, 13), shape (n_bodies, 6)."""
+    real = state.reshape(ideal.shape)
+    after, before = (rotations(found[:, ORIENTATION:VELOCITY]) for found in (real, ideal))
+    ways = real[:, :ORIENTATION] - ideal[:, :ORIENTATION]
+    return np.hstack([ways, (after * before.inv()).as_rotvec()])
 
 
 def _fastest(states: FloatArray, size: float) -> float:

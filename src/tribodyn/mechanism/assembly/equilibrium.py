@@ -101,6 +101,7 @@ class JointLoads:
         self.speeds, self.over_loads, self.largest = speeds, over_loads, 0.0
         self.carried, self.turning, self.waits = 0, np.zeros((0, 0)), False
         self.surveyed = False
+        self.pace = 0.0  # rate of slips over the displacement that changes them [1/s]
         self.ahead: FloatArray | None = None
 
     def look(self) -> None:
@@ -316,7 +317,9 @@ class JointLoads:
         ``motions`` have shape (6 n, m); ``moving`` are the same for these couplings.
         """
         arms, slopes = (self.couplings[name][couplings] for name in ("H", "slope"))
-        found, even = moving.stiffness(arms, slopes[..., :6], self.roots[couplings])
+        paces = self.pace * np.isin(couplings, self.touching)[:, None, None]
+        slopes = slopes[..., :6] + paces * slopes[..., 6:]
+        found, even = moving.stiffness(arms, slopes, self.roots[couplings])
         total = -found
         for first, row in self._rows(motions):
             total -= self.couplings[first].law.in_position * np.outer(row, row)
