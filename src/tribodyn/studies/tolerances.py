@@ -129,6 +129,8 @@ def _tolerance(name: str, table: Any, case: Case) -> Tolerance:
         raise InputError("the case has no quantity here that could scatter", key=f"{name}.key", source=SOURCE)
     if kinds[0] == "grades" and dimension(key.unit) != dimension("mm"):
         raise InputError("grades are of lengths; give widths", key=f"{name}.grades")
+    if kinds[0] == "grades" and "size" not in table:
+        raise InputError('grades are of a nominal size, such as size = "20 mm"', key=f"{name}.size")
     law = table.get("law", "normal")
     if law not in LAWS:
         raise InputError(f"{as_given(str(law))}; allowed: {', '.join(LAWS)}", key=f"{name}.law")
@@ -137,7 +139,7 @@ def _tolerance(name: str, table: Any, case: Case) -> Tolerance:
         raise InputError("write {...} with a cost of each", key=f"{name}.{kinds[0]}")
     if kinds[0] == "cost":
         return Tolerance(name, key, law, share, {}, _curve(entries, key, f"{name}.cost"))
-    size = to_si(str(table.get("size", "0 mm")), "mm") if kinds[0] == "grades" else 0.0
+    size = to_si(str(table["size"]), "mm") if kinds[0] == "grades" else 0.0
     widths = {
         label: standard_width(label, size) if kinds[0] == "grades" else to_si(label, key.unit)
         for label in entries

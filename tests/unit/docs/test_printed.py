@@ -14,27 +14,43 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SHOWN = re.compile(
     r"^    \$ tribodyn (?P<command>[^\n]*)\n(?P<answer>(?:    (?!\$ )[^\n]*\n)+)", re.MULTILINE
 )
+#: A file that a page shows after its name.
+FILE = re.compile(
+    r"^[^\n]*`(?P<name>[\w-]+\.toml)`[^\n]*\n\n```toml\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL
+)
+#: Commands that take more than a minute.
+LONG = re.compile(r"allocate .*(wear\.cycles|samples 100)")
 EXAMPLES = [
-    pytest.param(found["command"], found["answer"], id=f"{page.stem}-{found['command'].split()[0]}")
+    pytest.param(
+        found["command"],
+        found["answer"],
+        {file["name"]: file["text"] for file in FILE.finditer(text) if file["name"] in found["command"]},
+        id=f"{page.stem}-{found['command'].split()[0]}",
+        marks=[pytest.mark.long] if LONG.match(found["command"]) else [],
+    )
     for page in PAGES
     if "_build" not in page.parts
-    for found in SHOWN.finditer(page.read_text(encoding="utf-8"))
+    for text in [page.read_text(encoding="utf-8")]
+    for found in SHOWN.finditer(text)
 ]
 
 
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
-@pytest.mark.parametrize(("command", "answer"), EXAMPLES)
+@pytest.mark.parametrize(("command", "answer", "files"), EXAMPLES)
 def test_a_command_answers_as_shown(
     command: str,
     answer: str,
+    files: dict[str, str],
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """Every line that is shown is printed, in this order; files with names of templates are written first."""
+    """Every line that is shown is printed, in this order; templates and files of pages are written first."""
     monkeypatch.chdir(tmp_path)
+    for name, text in files.items():
+        Path(name).write_text(text, encoding="utf-8")
     for name in templates():
         if f" {name}.toml" in command:
             assert main(["new", name]) == 0

@@ -13,6 +13,9 @@ from scipy import stats
 
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, TribodynError
+from tribodyn.mechanisms.catalogue import load_case, parse_case
+from tribodyn.mechanisms.results import summarise
+from tribodyn.simulation import simulate
 from tribodyn.studies import allocate
 from tribodyn.studies.tolerances import standard_width
 
@@ -116,12 +119,17 @@ def test_both_sides_of_a_limit_count(linear: Callable[..., None], tmp_path: Path
     assert two.probability < exact(tuple(1e3 * np.array(two.widths)), 670.0)
 
 
-def test_limits_that_are_never_or_always_kept(linear: Callable[..., None], tmp_path: Path) -> None:
+def test_limits_that_are_never_or_always_kept(
+    linear: Callable[..., None], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     linear(grams)
     with pytest.raises(TribodynError, match="not even the finest tolerances keep the limits"):
         allocate(CASE, [f"{NUMBER}=649"], 0.9, costs(tmp_path))
     found = allocate(CASE, [f"{NUMBER}=2000"], 0.9, costs(tmp_path), samples=50)
     assert found.chosen.labels == ("80 g", "80 g", "60 g")
+    asked = ["allocate", CASE, "--limit", f"{NUMBER}=2000", "--probability", "0.9", "--samples", "50"]
+    assert main([*asked, "--cost", costs(tmp_path), "-o", str(tmp_path / "out")]) == 0
+    assert "the widest tolerances do" in capsys.readouterr().err
 
 
 def test_a_number_that_jumps_is_refused(linear: Callable[..., None], tmp_path: Path) -> None:
@@ -137,6 +145,7 @@ def test_a_number_that_jumps_is_refused(linear: Callable[..., None], tmp_path: P
         (({"IT7": 1.0},), "grades", 'key = "joints.wrist.clearance.radial"\nsize = "2 m"', "at most 500 mm"),
         (({"IT99": 1.0},), "grades", 'key = "joints.wrist.clearance.radial"\nsize = "2 mm"', "allowed: IT5"),
         (({"IT7": 1.0},), "grades", 'size = "2 mm"', "grades are of lengths"),
+        (({"IT7": 1.0},), "grades", 'key = "joints.wrist.clearance.radial"', "grades are of a nominal size"),
         (({"80 g": -1.0},), "widths", "", "allowed: a number above 0"),
         (({"80 g": 1.0},), "widths", 'law = "nonsense"', "allowed: normal, uniform"),
         (({"80 g": 1.0},), "width", "", "allowed: key, law"),
@@ -168,11 +177,54 @@ def test_widths_of_grades_follow_the_unit_of_tolerance() -> None:
             assert standard_width(f"IT{grade}", high * 1e-3) == pytest.approx(unit, rel=0.05)
 
 
-def test_tolerances_of_a_machine_of_ones_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Inverse dynamics of a slider-crank; the moment is linear in the masses."""
-    asked = ["allocate", CASE, "--set", "run.analysis=kinematic", "--limit", "drive_moment_rms_Nm=83"]
-    place = ["--cost", costs(tmp_path), "-o", str(tmp_path / "out"), "--samples", "40", "--workers", "0"]
-    assert main([*asked, *place, "--probability", "0.95"]) == 0
-    out = capsys.readouterr().out
-    assert "keep the limits" in out
-    assert "Simulated anew" in out
+#: A model of one's own: a press with its slide upright.
+PRESS = """
+case = "mechanism"
+gravity = "0, -9.81, 0 m/s^2"
+run.cycles = 1
+run.analysis = "kinematic"
+drives.motor = { joint = "main", speed = "300 rpm" }
+[bodies]
+crank = { mass = "0.4 kg", centre = "20, 0, 0 mm", inertia = "2e-4, 3e-4, 4e-4 kg m^2" }
+rod = { mass = "0.3 kg", centre = "30, 60, 0 mm", inertia = "5e-4, 1e-5, 5e-4 kg m^2" }
+slider = { mass = "0.9 kg", centre = "0, 150, 0 mm", inertia = "1e-4, 1e-4, 1e-4 kg m^2" }
+[joints]
+main = { type = "revolute", between = ["ground", "crank"], point = "0, 0, 0 mm", axis = [0, 0, 1] }
+pin = { type = "revolute", between = ["crank", "rod"], point = "40, 0, 0 mm", axis = [0, 0, 1] }
+wrist = { type = "revolute", between = ["rod", "slider"], point = "0, 150, 0 mm", axis = [0, 0, 1] }
+guide = { type = "prismatic", between = ["ground", "slider"], point = "0, 150, 0 mm", axis = [0, 1, 0] }
+"""
+
+
+@pytest.mark.parametrize("model", [CASE, "press"])
+def test_optimum_of_machines_is_that_of_a_full_enumeration(model: str, tmp_path: Path) -> None:
+    """Inverse dynamics: the moment is nearly linear in the masses, so that a choice has a normal law."""
+    case = parse_case(PRESS, "press") if model == "press" else load_case(model)
+    case = case.replace({"run.analysis": "kinematic", "run.positions": 40})
+    name = "drive_moment_rms_Nm"
+
+    def number(path: str, change: float) -> float:
+        return float(summarise(simulate(case.replace({path: f"{case.at(path) + change!r} kg"})))[name])
+
+    slopes = [(number(path, 0.01) - number(path, -0.01)) / 20.0 for path in MASSES]
+    every = [
+        (
+            sum(cost for _, cost in one),
+            np.hypot.reduce([s * float(w[:-2]) / 6.0 for s, (w, _) in zip(slopes, one, strict=True)]),
+        )
+        for one in itertools.product(*(of.items() for of in STEPS))
+    ]
+    # Halfway between two choices that differ most, so that no choice is a near miss.
+    deviations = np.sort([deviation for _, deviation in every])[16:48]
+    k = int(np.argmax(np.diff(deviations)))
+    room = stats.norm.ppf(0.95) * deviations[k : k + 2].mean()
+    cost, probable = min(
+        (cost, -stats.norm.cdf(room / deviation)) for cost, deviation in every if deviation <= deviations[k]
+    )
+    limit = number(MASSES[0], 0.0) + room
+    found = allocate(case, [f"{name}={float(limit)!r}"], 0.95, costs(tmp_path), samples=60, workers=0)
+    assert found.chosen.cost == cost
+    assert found.chosen.probability == pytest.approx(-probable, abs=5e-3)
+    chance = found.chosen.probability
+    share, error = found.confirmed.within / 60, np.sqrt(chance * (1.0 - chance) / 60)
+    assert abs(share - chance) <= 2.0 * error

@@ -80,6 +80,8 @@ def _tell(found: Allocation, probability: float, console: Console) -> None:
     )
     if sure.high < probability:
         console.note(f"these simulations contradict {probability:.2%}: ask for more, or give --samples")
+    if all(width >= one.widest for one, width in zip(found.tolerances, found.chosen.widths, strict=True)):
+        console.note("the widest tolerances do: these limits ask for none of the finer ones")
     console.say("\nLeast cost over probability:")
     for asked, choice in found.front:
         console.say(f"  {asked:>8.1%}{choice.cost:>12.6g}   {', '.join(choice.labels)}")
