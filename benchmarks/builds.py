@@ -57,7 +57,11 @@ def measure(
 
 
 def coupled(
-    rings: int, directory: Path | None, count: int = COUNT, changes: dict[str, Any] | None = None
+    rings: int,
+    directory: Path | None,
+    count: int = COUNT,
+    changes: dict[str, Any] | None = None,
+    table: int = TABLE,
 ) -> dict[str, Any]:
     """Return, and print, how rings as a whole compare with their vanes, whose errors a table of others gives.
 
@@ -65,12 +69,12 @@ def coupled(
     """
     case = parse_case(RIGID, "ring").replace({"pattern.vanes.count": count, **(changes or {})})
     means, inside = Means(keep_results=False), lambda name: directory and directory / name
-    errors = BuildRuns(case, TABLE, 0, SEED, inside("table")).alone(means, SILENT)
-    plays, of_rings = (norm.ppf(SAMPLERS["lhs"](n, 1, SEED)[:, 0]) for n in (TABLE, RINGS * count))
+    errors = BuildRuns(case, table, 0, SEED, inside("table")).alone(means, SILENT)
+    plays, of_rings = (norm.ppf(SAMPLERS["lhs"](n, 1, SEED)[:, 0]) for n in (table, RINGS * count))
     order = np.argsort(plays)
     plays, errors = plays[order], errors[order]
     missed = np.std(errors[1:-1:2] - _read(plays[1:-1:2], plays[::2], errors[::2])) / np.std(errors)
-    print(f"every second vane of {TABLE} read from the others misses {missed:.2%} of their spread")
+    print(f"every second vane of {table} read from the others misses {missed:.2%} of their spread")
     together = BuildRuns(case, RINGS * count, rings, SEED, inside("rings")).together(means, SILENT)
     same = numbers_of_builds(_read(of_rings[: rings * count], plays, errors).reshape(rings, count, -1))
     return {"missed": float(missed)} | _compared(together, same)
@@ -150,7 +154,8 @@ def _lines(file: Path) -> int:
 def run(quick: bool = False) -> dict[str, Any]:
     """Measure, print and return; ``quick``: few vanes and rings over a moment."""
     if quick:
-        return measure(12, 3, None, 4, {"run.cycles": 0.05})
+        changes = {"run.cycles": 0.05}
+        return measure(12, 3, None, 4, changes) | {"read": coupled(3, None, 4, changes, 12)}
     return measure(4000, 100, None)
 
 
