@@ -155,7 +155,7 @@ def run(quick: bool = False) -> dict[str, Any]:
     """Measure, print and return; ``quick``: few vanes and rings over a moment."""
     if quick:
         changes = {"run.cycles": 0.05}
-        return measure(12, 3, None, 4, changes) | {"read": coupled(3, None, 4, changes, 12)}
+        return measure(12, 3, None, 4, changes) | {"read": coupled(2, None, 2, changes, 8)}
     return measure(4000, 100, None)
 
 
