@@ -108,8 +108,24 @@ def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> Co
 def made(kind: type[ContactLaw], pair: SurfacePair, options: Mapping[str, Any]) -> ContactLaw:
     """Return a law of a kind for a pair of surfaces, with those of the options that it has.
 
-    ``kind``: class of the law; ``options``: parameters of laws by name; those that this law does not have are
-    ignored. Returns the law. Raises InputError if the value of an option is out of its range.
+    Parameters
+    ----------
+    kind
+        Class of the law.
+    pair
+        The surfaces.
+    options
+        Parameters of laws by name; those that this law does not have are ignored.
+
+    Returns
+    -------
+    ContactLaw
+        The law.
+
+    Raises
+    ------
+    InputError
+        The value of an option is out of its range.
     """
     own = _options_of(kind)
     return kind(pair, **{key: value for key, value in options.items() if key in own})

@@ -145,7 +145,11 @@ def _first_steps(session: Session) -> str:
 def estimate(case: AnyCase) -> Estimate:
     """Return the memory and the processor time that a run of a case is expected to take.
 
-    ``case``: as for :func:`simulate`. Nothing is built; see the manual's page on case files for the accuracy.
+    Parameters
+    ----------
+    case
+        As for :func:`simulate`. Nothing is built; see the manual's page on case files for the
+        accuracy.
     """
     found = case_of(case)
     return estimated(_mechanism(found).workload(cast(SystemCase, found)))
