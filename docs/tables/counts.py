@@ -55,10 +55,10 @@ def machines(found: Found) -> Lines:
 
 def bulk(found: Found) -> Lines:
     """Give how elastic bodies change random machines."""
-    kinds = [found["random_machines"]["bulk"][name] for name in ("ELASTIC", "LOSSY")]
-    yield from head("", "without loss", "as lossy as asperities")
+    kinds = [found["random_machines"]["bulk"][name] for name in ("MECHANISM", "ELASTIC", "LOSSY")]
+    yield from head("", "by default", '`"conformal"`', "as lossy as asperities")
     for name in ("machines", "stopped with rigid bodies", "stopped with elastic bodies", "sound with both"):
-        yield row(name, *(str(kind[name]) for kind in kinds))
+        yield row(name.replace("elastic", "these"), *(str(kind[name]) for kind in kinds))
     for title, name in (
         ("mean contact force", "contact_force_mean_N"),
         ("sustained contact force", "contact_force_sustained_N"),

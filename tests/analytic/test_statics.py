@@ -228,9 +228,22 @@ def test_an_overloaded_joint_has_no_equilibrium() -> None:
         .case()
         .replace({"loads.push.force.value": "1e7 N", "run.analysis": "static"})
     )
-    result = td.simulate(drawn)
-    assert "with drive motor at 0°, no static equilibrium was found" in result.attrs["failure"]
-    assert "the surfaces of joint wrist come closer than the contact law reaches" in result.attrs["failure"]
+    rigid = td.simulate(drawn.replace({"joints.wrist.clearance.bulk": "none"})).attrs["failure"]
+    assert "with drive motor at 0°, no static equilibrium was found" in rigid
+    assert "the surfaces of joint wrist come closer than the contact law reaches" in rigid
+    assert "the loads move the shaft of joint wrist out of its bore" in td.simulate(drawn).attrs["failure"]
+
+
+def test_bodies_carry_where_asperities_end() -> None:
+    smooth = {f"surfaces.{body}.roughness": "0.05 um" for body in ("trunnion", "bushing")}
+    loaded = {"loads.push.force.value": "1e4 N", "run.analysis": "static"}
+    drawn = press(radial="20 um", **PIN).case().replace(loaded | smooth)
+    key = "joints.wrist.clearance.bulk"
+    assert "closer than the contact law" in td.simulate(drawn.replace({key: "none"})).attrs["failure"]
+    found = td.simulate(drawn)
+    assert not found.attrs["failure"]
+    assert 'bulk = \\"none\\"' in found.attrs["notes"]
+    assert found.attrs["rows_sha256"] == td.simulate(drawn.replace({key: "conformal"})).attrs["rows_sha256"]
 
 
 def lever(height: str) -> td.Mechanism:

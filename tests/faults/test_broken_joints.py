@@ -29,7 +29,7 @@ def pendulum(contact: str = "surface", **keys: object) -> MechanismCase:
     drawn = Mechanism("Pendulum", run={"duration": "50 ms", "start": "centred"}, **keys)
     drawn.body("bob", mass="1 kg", centre="100, 0, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
     drawn.revolute("pivot", "ground", "bob", point="0, 0, 0 mm", axis=[0, 1, 0])
-    drawn.clearance("pivot", **SIZES, contact=contact)
+    drawn.clearance("pivot", **SIZES, contact=contact, bulk="none")
     return drawn.load("blow", "bob", direction=[0, 0, -1], force="3 MN").case()
 
 
@@ -74,7 +74,7 @@ def overhung(rings: int) -> MechanismCase:
     drawn = Mechanism("Overhung", gravity="0, 0, -9.81 m/s^2", run={"duration": "20 ms"})
     drawn.body("shaft", mass="4 kg", centre="0, 60, 0 mm", inertia="1e-3, 1e-3, 1e-3 kg m^2")
     drawn.revolute("bearing", "ground", "shaft", point="0, 0, 0 mm", axis=[0, 1, 0])
-    sizes = SIZES | {"radial": "200 um", "nodes_along": rings, "axial": "1 mm"}
+    sizes = SIZES | {"radial": "200 um", "nodes_along": rings, "axial": "1 mm", "bulk": "none"}
     return drawn.clearance("bearing", **sizes).case()
 
 

@@ -200,6 +200,10 @@ class Case(Group):
         """Drive cycles of a wear campaign; 0 where the case asks for none."""
         return 0
 
+    def yielding(self) -> Self | None:
+        """Return the case with elastic bodies under all asperities of which it says nothing, if any."""
+        return None
+
     def remarks(self) -> Remarks:
         """Return remarks on values that do not contradict each other."""
         unused = unused_parameters(self._given, self.parameters)

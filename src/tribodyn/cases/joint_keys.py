@@ -121,6 +121,9 @@ class FormKeys(Group):
         )
 
 
+CONFORMAL, SLEEVE, NOTHING = "conformal", "sleeve", "none"  #: What yields under asperities.
+
+
 class PlainJoint(Group):
     """The clearance joint: a shaft in a bushing."""
 
@@ -140,6 +143,13 @@ class PlainJoint(Group):
         "depends on mechanism.formulation",
     )
     slip_velocity: float = quantity("10 um/s", "slip at which traction is fully developed u_s", ASSUMED, gt=0)
+    bulk: Literal["conformal", "none"] | None = choice(
+        None,
+        "what yields under the asperities: shaft and bushing, or nothing; without it nothing, or both where "
+        "asperities do not carry",
+        "",
+        example="conformal",
+    )
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
 
@@ -155,6 +165,8 @@ class PlainJoint(Group):
             "joint.clearance",
             "the clearance must not exceed a tenth of joint.radius",
         )
+        words = "elastic bodies need a contact over the surface and no liner"
+        demand(self.bulk != CONFORMAL or self.may_yield, "joint.bulk", words)
         self.liner.check_contact(self.contact)
         self.form.check(self.contact, self.length)
 

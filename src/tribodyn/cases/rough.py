@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Self
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, of_tables
 from tribodyn.cases.case import Case, demand
 from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
-from tribodyn.cases.joint_keys import PlainJoint
+from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint
 from tribodyn.cases.keys import Key, Value, keys_of
 from tribodyn.cases.materials import MATERIAL, MATERIALS, SURFACES, Property, taken, warmth, written
 from tribodyn.cases.messages import Remarks
@@ -80,6 +80,15 @@ class BushingCase(RoughCase):
     def derived(self) -> dict[str, str]:
         """Return the properties of the material that follow from the temperature."""
         return self.temperature.properties.derived()
+
+    def remarks(self) -> Remarks:
+        """Return remarks on surfaces and tables, and on elastic bodies of unknown loss."""
+        return super().remarks() + of_loss(self, ("",) if self.joint.bulk == CONFORMAL else ())
+
+    def yielding(self) -> Self | None:
+        """Return the case with elastic bodies under its asperities, if it says nothing of them."""
+        possible = self.joint.bulk is None and self.joint.may_yield
+        return self.replace({"joint.bulk": CONFORMAL}) if possible else None
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return the checks of contact law, liner and clearance."""

@@ -15,7 +15,7 @@ from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import Case, demand, demand_known, with_entries
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
 from tribodyn.cases.groups import Contact, check_output_interval
-from tribodyn.cases.joint_keys import FilmGridKeys, Wear
+from tribodyn.cases.joint_keys import CONFORMAL, FilmGridKeys, Wear
 from tribodyn.cases.keys import ASSUMED, Value, keys_of
 from tribodyn.cases.loads import Doors, OwnFunction
 from tribodyn.cases.messages import Remarks
@@ -42,14 +42,7 @@ from tribodyn.mechanism.model.drives_and_loads import (
     given_of,
 )
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
-from tribodyn.mechanism.model.parts import (
-    CONFORMAL,
-    ClearanceKeys,
-    JointKeys,
-    PairKeys,
-    SpringKeys,
-    friction_of,
-)
+from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys, friction_of
 from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, scatter_in, with_copies
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
@@ -290,6 +283,12 @@ class MechanismCase(_WithElements):
         from tribodyn.mechanism.one_copy import one_copy
 
         return one_copy(self, together, instants)
+
+    def yielding(self) -> Self | None:
+        """Return the case with elastic bodies under all asperities of which it says nothing, if any."""
+        real = {name: joint.real for name, joint in self.joints.items()}
+        rigid = [name for name, keys in real.items() if keys is not None and keys.may_yield]
+        return self.replace({f"joints.{name}.clearance.bulk": CONFORMAL for name in rigid}) if rigid else None
 
     @property
     def scattered(self) -> Mapping[str, ScatterKeys]:

@@ -46,9 +46,23 @@ TOO_CLOSE: Final = (
 )
 
 
+_YIELD: Final = "lets the bodies under the asperities yield"
+#: Remark on a run that elastic bodies carry where asperities alone do not.
+YIELDED: Final = (
+    "Asperities alone do not carry this run, or its grid is too coarse for the edge of a tilted pin: "
+    "surfaces came closer than the contact law reaches. So it has elastic bodies under all asperities of "
+    'which the case said nothing; with bulk = "none" it stops there.'
+)
+
+
 def yielding(key: str) -> str:
     """Return the advice to let the bodies under the asperities yield, by their key."""
-    return f'; {key} = "conformal" lets the bodies under the asperities yield, and the run goes on there'
+    return f'; {key} = "conformal" {_YIELD}, and the run goes on there'
+
+
+def may_yield(failure: str) -> bool:
+    """Return whether a run stopped where elastic bodies under the asperities would let it go on."""
+    return _YIELD in failure
 
 
 def beyond_law(

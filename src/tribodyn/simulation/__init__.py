@@ -18,6 +18,8 @@ from tribodyn.core.stopping import asked
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor, ResultPart, SystemCase
+from tribodyn.mechanisms.self_checks import YIELDED, may_yield
+from tribodyn.simulation.checkpoint import is_of
 from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
@@ -84,12 +86,31 @@ def simulate(
     Stopped
         If ``stop`` was true before anything was computed.
     """
-    case = with_controllers(case_of(case), controllers or {})
-    with asked(stop), one_thread():
-        own = with_functions(case, drive, loads)
+    given, path = case_of(case), None if checkpoint is None else Path(checkpoint)
+
+    def session(case: Case, *notes: str) -> Session:
+        own = with_functions(with_controllers(case, controllers or {}), drive, loads)
         chosen = own if law is None else _with_law(own, law)
-        session = replace(_session(chosen), progress=progress, stop=stop)
-        return _simulated(session, None if checkpoint is None else Path(checkpoint))
+        return replace(_session(chosen), progress=progress, stop=stop, notes=notes)
+
+    with asked(stop), one_thread():
+        return _carried(given, session, path)
+
+
+def _carried(case: Case, session: Callable[..., Session], checkpoint: Path | None) -> xr.Dataset:
+    """Simulate a case, once more with elastic bodies where asperities alone do not carry."""
+    begun = session(case)
+    softer = case.yielding()
+    if softer is None:
+        return _simulated(begun, checkpoint)
+    goes_on = checkpoint is not None and is_of(checkpoint, session(softer).case.to_toml())
+    if not goes_on:
+        found = _simulated(begun, checkpoint)
+        if not may_yield(found.attrs["failure"]):
+            return found
+        if checkpoint is not None:
+            checkpoint.unlink(missing_ok=True)
+    return _simulated(session(softer, YIELDED), checkpoint)
 
 
 def with_controllers(case: Case, functions: Mapping[str, OwnFunction]) -> Case:

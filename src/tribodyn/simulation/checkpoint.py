@@ -95,6 +95,14 @@ def read(
     return worn, warnings
 
 
+def is_of(path: Path, case: str) -> bool:
+    """Return whether there is a checkpoint that can be read, of the case with this text."""
+    try:
+        return bool(_opened(path)[1]["case"] == case)
+    except Exception:  # as in reading it
+        return False
+
+
 def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the arrays of a file, and what it says about itself."""
     with open_regular(path, LARGEST) as stream:

@@ -41,6 +41,7 @@ class Session:
     #: As for :func:`tribodyn.simulation.simulate`.
     progress: Progress = None
     stop: Stop = None
+    notes: tuple[str, ...] = ()  #: Remarks on the case that it does not make itself.
 
     def integrated(self, duration: float, worn: Worn | None = None, progress: Progress = None) -> FinishedRun:
         """Integrate the system over ``duration`` [s] from its start, or from where another run ended."""
@@ -90,7 +91,7 @@ class Session:
                 "time_reached": float(run.solution.t_end),
                 "failure": failure,
                 "warnings": [*said.warnings, *part.warnings, *more.warnings],
-                "notes": [*said.notes, *part.notes, *more.notes],
+                "notes": [*said.notes, *self.notes, *part.notes, *more.notes],
             },
         )
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.cases.case import demand, unit
 from tribodyn.cases.groups import Surfaces
+from tribodyn.cases.joint_keys import CONFORMAL, NOTHING
 from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
 from tribodyn.contact.bulk import elastic_bodies
@@ -21,7 +22,7 @@ from tribodyn.kernels import dense
 from tribodyn.lubrication import Film
 from tribodyn.mechanism.frames import GROUND, cross, frame
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.model.parts import CONFORMAL, NOTHING, ClearanceKeys, JointKeys, PairKeys
+from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.bushing import Bearing
 

@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING, Any, Final, Literal, Self
 from tribodyn.cases.case import NamedGroup, demand, dot, unit
 from tribodyn.cases.fields import Vector, choice, count, name, names, number, quantity, switch, vector
 from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
-from tribodyn.cases.joint_keys import SURFACE, FilmKeys, FormKeys, LinerKeys, SurfaceWear
+from tribodyn.cases.joint_keys import (
+    CONFORMAL,
+    NOTHING,
+    SLEEVE,
+    SURFACE,
+    FilmKeys,
+    FormKeys,
+    LinerKeys,
+    SurfaceWear,
+)
 from tribodyn.cases.keys import ASSUMED
 from tribodyn.cases.temperature import ChangingTemperature
 from tribodyn.mechanism.joints import JOINTS
@@ -69,8 +78,6 @@ def check_film(joint: Any) -> None:
     demand(not clearance.temperature.tables, "clearance.temperature.over_time", words)
 
 
-#: Bodies under the asperities of a clearance: elastic ones, a liner, and rigid ones.
-CONFORMAL, SLEEVE, NOTHING = "conformal", "sleeve", "none"
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 _LEAST_ANGLE: Final = 1e-3  #: Sine of the least angle between two axes that must not be parallel.
 
@@ -133,8 +140,8 @@ class ClearanceKeys(_OfAllShapes):
     )
     bulk: Literal["conformal", "sleeve", "none"] | None = choice(
         None,
-        "what yields under the asperities: both bodies, the sleeve of liner, or nothing; "
-        "without it nothing, or the sleeve where liner has a thickness",
+        "what yields under the asperities: both bodies, the sleeve of liner, or nothing; without it the "
+        "sleeve where liner has a thickness, else nothing, or both where asperities do not carry",
         "",
         example="conformal",
     )
@@ -163,6 +170,11 @@ class ClearanceKeys(_OfAllShapes):
         """Kind of body under the asperities."""
         default = NOTHING if self.liner.thickness is None else SLEEVE
         return NOTHING if self.contact != SURFACE else self.bulk or default
+
+    @property
+    def may_yield(self) -> bool:
+        """Whether there may be elastic bodies under its asperities, of which nothing is said."""
+        return self.contact == SURFACE and self.bulk is None and self.liner.thickness is None
 
     def _check_bulk(self) -> None:
         words = f'a sleeve needs its thickness, such as liner.thickness = "1 mm"; or bulk = "{CONFORMAL}"'

@@ -305,7 +305,8 @@ def _clearance(case: JournalCase) -> dict[str, Any]:
     same = ("radius", "length", "contact", "friction_coefficient", "slip_velocity", "liner", "form")
     # What the material does over the temperature is in the surfaces already.
     warm = {key: value for key, value in _of(temperature).items() if key != "properties"}
-    return {"radial": joint.clearance, "temperature": warm, **{key: getattr(joint, key) for key in same}}
+    found = {"radial": joint.clearance, "temperature": warm, **{key: getattr(joint, key) for key in same}}
+    return found if joint.bulk is None else found | {"bulk": joint.bulk}
 
 
 def _of(group: Any) -> dict[str, Any]:

@@ -100,6 +100,8 @@ def journal_in(
         contact=real.contact,
         liner=real.liner,
         form=shape.form,
+        bulk=real.bulk,
+        hardness=real.hardness,
     )
     return Journal(tilts, speed, loads, joint, real.film, changes)
 

@@ -10,11 +10,10 @@ from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, tables, text
 from tribodyn.cases.groups import Solver, check_output_interval
-from tribodyn.cases.joint_keys import PlainJoint, Wear
+from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint, Wear
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import Doors
-from tribodyn.cases.messages import Remarks
-from tribodyn.cases.rough import BushingCase, of_loss
+from tribodyn.cases.rough import BushingCase
 from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature, cold_geometry, time_followed, times_of
 from tribodyn.core.errors import Faults
 from tribodyn.mechanisms.bushing import grid_of
@@ -40,9 +39,6 @@ class VaneJoint(PlainJoint):
     """The clearance joint: a trunnion in a bushing, with a thrust collar."""
 
     collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
-    bulk: Literal["conformal", "none"] = choice(
-        "none", "what yields under the asperities: trunnion and bushing, or nothing", "assumed"
-    )
 
 
 class MechanismKeys(Group):
@@ -272,9 +268,9 @@ class VsvCase(BushingCase):
         yield from followed(loads, self.duration, cycle=self.period, follows=along)
         yield from followed(warm, time_followed(self))
 
-    def remarks(self) -> Remarks:
-        """Return remarks on surfaces and tables, and on elastic bodies of unknown loss."""
-        return super().remarks() + of_loss(self, () if self.joint.bulk == "none" else ("",))
+    def yielding(self) -> Self | None:
+        """Return the case with elastic bodies under its asperities, in the formulation that keeps energy."""
+        return super().yielding() if self.mechanism.formulation == "exact" else None
 
     def idle(self) -> tuple[str, ...]:
         """Return the keys of the sinusoid that a table takes the place of."""
@@ -358,10 +354,10 @@ class VsvCase(BushingCase):
         faults.raise_any()
 
     def _check_bulk(self) -> None:
-        """Check that elastic bodies are those of the formulation that keeps energy, over a surface."""
-        words = 'elastic bodies need mechanism.formulation = "exact", a contact over the surface and no liner'
-        possible = self.joint.may_yield and self.mechanism.formulation == "exact"
-        demand(self.joint.bulk == "none" or possible, "joint.bulk", words)
+        """Check that elastic bodies are those of the formulation that keeps energy."""
+        exact = self.mechanism.formulation == "exact"
+        words = 'elastic bodies need mechanism.formulation = "exact"'
+        demand(self.joint.bulk != CONFORMAL or exact, "joint.bulk", words)
 
     def _check_running_in(self) -> None:
         """Check that there is a roughness to run in to."""

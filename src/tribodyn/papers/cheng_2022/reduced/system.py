@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mebdf.kernels.elementary import portable
+from tribodyn.cases.joint_keys import CONFORMAL
 from tribodyn.cases.temperature import cold_geometry
 from tribodyn.contact.bulk import elastic_bodies
 from tribodyn.core.arrays import FloatArray
@@ -99,7 +100,7 @@ def vsv_of(case: VsvCase) -> Vsv:
 def _bushing_of(case: VsvCase) -> BushingJoint:
     """Return the clearance joint with what yields under its asperities."""
     rigid, surfaces = bushing_of(case), case.surface_pair
-    if case.joint.bulk == "none":
+    if case.joint.bulk != CONFORMAL:
         return rigid
     bulk = elastic_bodies(rigid.table, case.contact.law_of(surfaces), rigid.geometry.bore_radius)
     return replace(rigid, bulk=bulk, hardness=surfaces.hardness)
