@@ -99,18 +99,21 @@ def simulate(
 
 def _carried(case: Case, session: Callable[..., Session], checkpoint: Path | None) -> xr.Dataset:
     """Simulate a case, once more with elastic bodies where asperities alone do not carry."""
-    begun = session(case)
-    softer = case.yielding()
+    if checkpoint is not None and checkpoint.exists():
+        softer = case.yielding()
+        again = None if softer is None else session(softer, YIELDED)
+        if again is not None and is_of(checkpoint, again.case.to_toml()):
+            return _simulated(again, checkpoint)
+    found = _simulated(session(case), checkpoint)
+    softer = case.yielding() if may_yield(found.attrs["failure"]) else None
     if softer is None:
-        return _simulated(begun, checkpoint)
-    goes_on = checkpoint is not None and is_of(checkpoint, session(softer).case.to_toml())
-    if not goes_on:
-        found = _simulated(begun, checkpoint)
-        if not may_yield(found.attrs["failure"]):
-            return found
-        if checkpoint is not None:
-            checkpoint.unlink(missing_ok=True)
-    return _simulated(session(softer, YIELDED), checkpoint)
+        return found
+    if checkpoint is not None:
+        checkpoint.unlink(missing_ok=True)
+    try:
+        return _simulated(session(softer, YIELDED), checkpoint)
+    except InputError:  # under more than their hardness bodies have no place to start from
+        return found
 
 
 def with_controllers(case: Case, functions: Mapping[str, OwnFunction]) -> Case:
