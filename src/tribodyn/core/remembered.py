@@ -12,10 +12,7 @@ _Made = TypeVar("_Made")
 class Remembered(Generic[_Made]):
     """Values by key, of which the oldest are forgotten; any thread may ask.
 
-    Parameters
-    ----------
-    most
-        How many are kept.
+    ``most``: how many are kept.
     """
 
     def __init__(self, most: int) -> None:

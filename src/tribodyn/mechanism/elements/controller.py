@@ -167,19 +167,9 @@ def check_functions(
 ) -> None:
     """Refuse functions that do not fit their controllers, and controllers that lack one.
 
-    Parameters
-    ----------
-    controllers, functions
-        By their names.
-    joints
-        Of the case.
-    outputs
-        Names of outputs, as arguments of functions spell them.
-
-    Raises
-    ------
-    InputError
-        With the name of the controller, what was given and what is allowed.
+    ``controllers``, ``functions``: by their names; ``joints``: of the case; ``outputs``: names of outputs, as
+    arguments of functions spell them. Raises InputError with the name of the controller, what was given
+    and what is allowed.
     """
     for name, function in functions.items():
         if name not in controllers:

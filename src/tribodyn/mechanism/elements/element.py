@@ -134,10 +134,7 @@ class ElementKeys(NamedGroup):
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
         """Return the legs of the equation; refuse joints that do not fit.
 
-        Raises
-        ------
-        InputError
-            With the reason; its key is the one of this table.
+        Raises InputError with the reason; its key is the one of this table.
         """
         raise NotImplementedError
 

@@ -80,10 +80,7 @@ def _shim(number: int, function: Described) -> str:
 def linked(modules: Iterable[Any], functions: Sequence[Described]) -> Any:
     """Return one module of intermediate code, of which only functions of words can be called.
 
-    Raises
-    ------
-    NoMachineCode
-        If a kernel calls what it must not: Python, or a function of the C library.
+    Raises NoMachineCode if a kernel calls what it must not: Python, or a function of the C library.
     """
     _started()
     symbols = {function[0] for function in functions}

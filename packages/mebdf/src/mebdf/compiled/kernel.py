@@ -112,12 +112,8 @@ class Kernel:
     def __call__(self, *arguments: Any) -> Any:
         """Call the machine code.
 
-        Raises
-        ------
-        TypeError
-            If arguments do not fit it.
-        NoMachineCode
-            If there is none, and numba is not installed.
+        Raises TypeError if arguments do not fit it; NoMachineCode if there is none, and numba is not
+        installed.
         """
         if self.name in ENTRIES:
             if self._listed is None:

@@ -176,10 +176,7 @@ def digest(layouts: Layouts, *more: str) -> str:
 def layout_of(value: Any) -> Layout:
     """Return the layout of a value.
 
-    Raises
-    ------
-    TypeError
-        If compiled code takes no such value.
+    Raises TypeError if compiled code takes no such value.
     """
     if value is None:
         return Absent()

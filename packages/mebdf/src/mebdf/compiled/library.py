@@ -46,10 +46,7 @@ class Sources:
     def files(self) -> Iterator[tuple[str, Path]]:
         """Yield the name, the same in every copy of the packages, and the place of each file.
 
-        Raises
-        ------
-        FileNotFoundError
-            If no file matches a pattern, as where the package is no folder.
+        Raises FileNotFoundError if no file matches a pattern, as where the package is no folder.
         """
         for sources in self.below:
             yield from sources.files()
@@ -65,10 +62,7 @@ class Sources:
 def fingerprint(sources: Sources) -> str:
     """Return the hash of all sources of machine code.
 
-    Raises
-    ------
-    OSError
-        If a source is missing or cannot be read.
+    Raises OSError if a source is missing or cannot be read.
     """
     digest = hashlib.sha256()
     for name, path in sources.files():
@@ -149,10 +143,7 @@ REMEDY: Final = "install the package again, or `make kernels` in a checkout"
 def library(sources: Sources) -> Library | None:
     """Return the library of a package; None where there is none, or where sources were changed since.
 
-    Raises
-    ------
-    NoMachineCode
-        If what is there is damaged, or made for another system.
+    Raises NoMachineCode if what is there is damaged, or made for another system.
     """
     try:
         manifest = json.loads((sources.folder / MANIFEST).read_bytes())

@@ -36,10 +36,7 @@ if TYPE_CHECKING:
 def make(sources: Sources, system: str) -> None:
     """Make the library of a package for all levels of processors of a system.
 
-    Raises
-    ------
-    NoMachineCode
-        If a kernel does what none may do, or there is no linker.
+    Raises NoMachineCode if a kernel does what none may do, or there is no linker.
     """
     from mebdf.compiled import build, jit
     from mebdf.compiled.kernel import entries

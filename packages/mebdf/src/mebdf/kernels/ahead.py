@@ -82,16 +82,8 @@ _call: Final[Any] = (
 def walk(state: MebdfState, calls: Calls, taken: int, limit: int) -> tuple[int, int]:
     """Take steps; return how many have been taken, and the last request of the core.
 
-    Parameters
-    ----------
-    state
-        The integration.
-    calls
-        Functions, and room for ``limit`` steps.
-    taken
-        Steps that are there already, of a walk that was left for a request.
-    limit
-        Number of steps at which to stop.
+    ``calls``: functions, and room for ``limit`` steps; ``taken``: steps that are there already, of a walk
+    that was left for a request; ``limit``: number of steps at which to stop.
     """
     record, rows, matrices, pivots, mass, places = state
     numbers = record[0]
