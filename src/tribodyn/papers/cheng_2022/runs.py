@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
+from tribodyn.cases.rough import BushingCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
@@ -44,9 +45,10 @@ class Runs:
 
     def run(self, name: str, changes: Mapping[str, object] | None = None) -> xr.Dataset:
         """Return the result of a built-in case with some keys changed, as a case file writes them."""
+        given = load_case(name)
         # The paper has nothing under its asperities: where these end, its runs do.
-        rigid = {} if name == "vsv-joints" else {"joint.bulk": "none"}
-        case = load_case(name).replace({**rigid, **(changes or {}), **self.changes.get(name, {})})
+        rigid = {"joint.bulk": "none"} if isinstance(given, BushingCase) else {}
+        case = given.replace({**rigid, **(changes or {}), **self.changes.get(name, {})})
         key = case.to_toml()
         if key not in self._done:
             changed = ", ".join(f"{path} = {value}" for path, value in (changes or {}).items())
