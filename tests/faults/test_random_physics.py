@@ -34,6 +34,8 @@ ENDINGS = tuple(f"_{part}" for part in PARTS)
 #: Crank angle by which clearance can shift the limit of reach; the widest here turns the vane by 1°.
 NEAR = math.radians(2.0)
 STOPPED = (12, 15, 16, 18)  #: Seeds of mechanisms that stop where their asperities end.
+#: Seed of a mechanism whose pin goes 0.12 mm into its bore: no tolerance closes the energy of such a contact.
+PRESSED_IN = 327
 PATIENCE = 120.0  #: Time after which a run counts as one that hangs [s].
 
 Changes = dict[str, object]
@@ -306,7 +308,13 @@ def chunks(count: int, size: int = 25) -> list[Any]:
 
 @pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(500)])
 def test_mechanisms(seeds: range) -> None:
-    assert_sound(MECHANISM, seeds)
+    assert_sound(MECHANISM, (seed for seed in seeds if seed != PRESSED_IN))
+
+
+def test_a_pin_that_is_pressed_deep_into_its_bore_warns_of_energy() -> None:
+    found = run(MECHANISM.case(PRESSED_IN))
+    assert float(found.attrs["separation_least"]) < -1e-4
+    assert "Energy is missed" in found.attrs["warnings"]
 
 
 def test_what_a_stopped_run_advises_lets_it_go_on() -> None:
