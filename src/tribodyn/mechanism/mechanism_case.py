@@ -286,8 +286,8 @@ class MechanismCase(_WithElements):
 
     def yielding(self) -> Self | None:
         """Return the case with elastic bodies under all asperities of which it says nothing, if any."""
-        real = {name: joint.real for name, joint in self.joints.items()}
-        rigid = [name for name, keys in real.items() if keys is not None and keys.may_yield]
+        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
+        rigid = [name for name, keys in real.items() if keys.bulk is None and keys.may_yield]
         return self.replace({f"joints.{name}.clearance.bulk": CONFORMAL for name in rigid}) if rigid else None
 
     @property

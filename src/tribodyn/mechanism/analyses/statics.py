@@ -269,10 +269,11 @@ class Equilibria:
             return
         # Two steps back: the rate is then exact to the second order.
         last = (4.0 * self._ways[-1] - self._ways[0]) / 3.0 if len(self._ways) > 1 else self._ways[-1]
+        into_bodies = rotations(ideal[:, ORIENTATION:VELOCITY]).inv()
 
         def walked(state: FloatArray) -> FloatArray:
             ways = _ways(state, ideal) - last
-            ways[:, 3:] = rotations(ideal[:, ORIENTATION:VELOCITY]).inv().apply(ways[:, 3:])
+            ways[:, 3:] = into_bodies.apply(ways[:, 3:])
             return ways
 
         self._loads.walk(walked, (0.5 + 0.5 * len(self._ways)) / passed)

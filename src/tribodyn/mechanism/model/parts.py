@@ -173,8 +173,8 @@ class ClearanceKeys(_OfAllShapes):
 
     @property
     def may_yield(self) -> bool:
-        """Whether there may be elastic bodies under its asperities, of which nothing is said."""
-        return self.contact == SURFACE and self.bulk is None and self.liner.thickness is None
+        """Whether there may be elastic bodies under its asperities."""
+        return self.contact == SURFACE and self.liner.thickness is None
 
     def _check_bulk(self) -> None:
         words = f'a sleeve needs its thickness, such as liner.thickness = "1 mm"; or bulk = "{CONFORMAL}"'
