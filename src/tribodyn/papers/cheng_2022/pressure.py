@@ -15,7 +15,7 @@ from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
-from tribodyn.papers.cheng_2022.reduced.sections.mechanism import case_of
+from tribodyn.papers.cheng_2022.reduced.sections import case_of
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
 

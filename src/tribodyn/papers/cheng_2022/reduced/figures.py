@@ -1,4 +1,4 @@
-"""The mechanism at three positions of the vane, seen along the casing axis and from above."""
+"""Figures of the vane of the paper, in the order in which one reads them."""
 
 from typing import Any, Final
 
@@ -8,17 +8,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures import style
+from tribodyn.figures import chart, orbits, pressure, style, wear
 from tribodyn.figures.figure_family import Family
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
-from tribodyn.papers.cheng_2022.reduced.sections.mechanism import (
+from tribodyn.papers.cheng_2022.reduced.sections import (
+    CHARTS,
     MM,
     case_of,
     crank_pivot,
     crank_tip,
     ring_points,
 )
+from tribodyn.views.bushing_sections import ORBIT
 from tribodyn.views.events import finite, series
+from tribodyn.views.wear import WEAR_HISTORY
 
 TITLE: Final = "The mechanism at three vane positions"
 _LOOKS: Final[tuple[tuple[str, style.LineStyle], ...]] = (
@@ -109,3 +112,16 @@ FAMILY: Final = Family(
     needs=("theta_a", "theta_b", "theta_v", "h_1"),
     draw=draw,
 )
+
+
+FIGURES: Final[dict[str, Family]] = {
+    family.name: family
+    for family in (
+        *map(chart.family, CHARTS),
+        orbits.family(ORBIT),
+        pressure.FAMILY,
+        wear.FAMILY,
+        FAMILY,
+        chart.family(WEAR_HISTORY),
+    )
+}
