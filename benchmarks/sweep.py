@@ -26,7 +26,7 @@ from statistics import median
 from typing import Any
 
 from tribodyn.cases import Case
-from tribodyn.core.versions import version
+from tribodyn.core.platforms import version
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.store import FEW_POINTS
 from tribodyn.studies import sweep

@@ -11,8 +11,8 @@ import xarray as xr
 from measures.base import Numbers
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.wear import profile
+from tribodyn.papers.cheng_2022.clearance import worn
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, Runs
-from tribodyn.papers.cheng_2022.wear import worn
 
 #: The campaigns that the figures of the page show.
 MILLION: Final[dict[str, object]] = {

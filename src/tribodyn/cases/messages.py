@@ -14,8 +14,7 @@ from tribodyn.cases.entry import Entry, refused
 from tribodyn.cases.keys import ANY_NAME, VALUE, Key, shown
 from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name, plain_path
 from tribodyn.core.errors import MOST_HINTS, InputError
-from tribodyn.core.quoting import closest
-from tribodyn.core.synonyms import OF_DIAMETERS, meanings
+from tribodyn.core.quoting import OF_DIAMETERS, closest, meanings
 
 _ALL_KEYS: Final = "`tribodyn show` lists all keys"
 _LONGEST: Final = 200  #: Characters of a path that may be one that is misspelled.

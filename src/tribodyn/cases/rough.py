@@ -162,7 +162,7 @@ def has_wear_rate(case: Case, prefix: str = "") -> bool:
 
 def wear_scatter(case: Case, prefix: str = "") -> tuple[float, float]:
     """Return the interval of the wear of equal parts, over that at the rate of a set of surfaces [1]."""
-    from tribodyn.wear.scatter import of_repeats
+    from tribodyn.wear.archard import of_repeats
 
     for begin in dict.fromkeys((prefix, "")):
         repeats, scatter = (value_at(case, f"{begin}wear.{name}") for name in ("repeats", "scatter"))

@@ -229,6 +229,6 @@ def _in_words(error: BaseException) -> str:
         return f"writing or reading failed: {brief(error, 2 * LONGEST)}"
     if isinstance(error, MemoryError):
         return "there is not enough memory for this run"
-    from tribodyn.core.versions import unexpected
+    from tribodyn.core.platforms import unexpected
 
     return f"{unexpected(error)} (--debug shows where it arose)"

@@ -48,7 +48,6 @@ from tribodyn.mechanism.results.followed import (
     with_motors,
 )
 from tribodyn.mechanism.results.guides import guide_columns
-from tribodyn.mechanism.results.joint_flash import flash_temperatures
 from tribodyn.mechanism.results.kept import (
     Layout,
     columns,
@@ -71,6 +70,7 @@ from tribodyn.mechanism.results.output_columns import (
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.springs import spring_columns
+from tribodyn.mechanism.results.temperature_effects import flash_temperatures
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives

@@ -13,8 +13,8 @@ import numpy as np
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
+from tribodyn.core.platforms import provenance
 from tribodyn.core.quoting import LONGEST, brief
-from tribodyn.core.versions import provenance
 from tribodyn.results.atomic import write_together
 from tribodyn.results.netcdf import attributes_of, dataset_of, netcdf_parts
 from tribodyn.results.schema import Kinds, check

@@ -14,8 +14,8 @@ import numpy as np
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import open_regular
+from tribodyn.core.platforms import provenance
 from tribodyn.core.quoting import LONGEST, brief
-from tribodyn.core.versions import provenance
 from tribodyn.mechanisms.wear_state import Carried
 from tribodyn.results.atomic import replacing
 from tribodyn.simulation.campaign import Campaign, columns

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.core.digests import digest
+from tribodyn.core.platforms import provenance
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.core.stopping import Stop, skipped
-from tribodyn.core.versions import provenance
 from tribodyn.integrate import INTERRUPTED, integrate
 from tribodyn.kernels.jit import made_by
 from tribodyn.mechanisms.mechanism_protocol import (

@@ -20,8 +20,8 @@ from tribodyn.cases import Key
 from tribodyn.cases.units import si_unit, to_si
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.files import read_regular
+from tribodyn.core.platforms import version
 from tribodyn.core.quoting import brief
-from tribodyn.core.versions import version
 from tribodyn.mechanisms.results import known
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.dataset import SWEEP, assembled, variable

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.versions import version
+from tribodyn.core.platforms import version
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import LISTEN, Finished, PointOutcome, SweepJob, blocks_of, compute, failed
 

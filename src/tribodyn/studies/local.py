@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from tribodyn.core import fork_server, platforms
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.versions import version
+from tribodyn.core.platforms import version
 from tribodyn.core.workers import DEATHS, DIED, UNREADY, Service, WorkerProcess
 from tribodyn.studies.plan import Point
 from tribodyn.studies.work import (

@@ -11,8 +11,8 @@ from tribodyn.cases import Case, Key, keys_in
 from tribodyn.cases.keys import Value
 from tribodyn.cases.tables import plain_path, with_components
 from tribodyn.core.errors import InputError
+from tribodyn.core.platforms import version
 from tribodyn.core.quoting import LONGEST, as_given, brief
-from tribodyn.core.versions import version
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.variation import SOURCE, Asked, Levels, Scatter, variation, written
 

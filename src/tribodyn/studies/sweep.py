@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 from tribodyn.cases import Case, keys_in
 from tribodyn.cases.tables import with_components
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.platforms import processors
-from tribodyn.core.versions import version
+from tribodyn.core.platforms import processors, version
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.results.atomic import write_bytes, write_text

@@ -13,7 +13,7 @@ from typing import Final, TypeAlias
 
 from tribodyn.cases import Case
 from tribodyn.core.errors import TribodynError
-from tribodyn.core.versions import unexpected, version
+from tribodyn.core.platforms import unexpected, version
 from tribodyn.results.summary import Summary
 from tribodyn.studies.plan import Point
 

@@ -15,7 +15,7 @@ from tribodyn.validation.sets import hip_simulator_wear as hip
 from tribodyn.validation.sets import oblique_impact as oblique
 from tribodyn.validation.sets import pin_on_disc_pps as pins
 from tribodyn.validation.sets import screw_drive_friction as screw
-from tribodyn.wear.scatter import of_repeats
+from tribodyn.wear.archard import of_repeats
 
 SPEEDS: Final = (20.0, 100.0)  #: Input speeds of the plateaus of the screw drives [rpm].
 LAW_OF: Final = {"1": "Stribeck", "2": "Stribeck", "3": "Stribeck by direction"}  #: Law of each drive.

@@ -1,7 +1,6 @@
 """Wear: from sliding loads to depth and volume, and how far one simulated cycle may be extrapolated."""
 
-from tribodyn.wear.archard import Archard, between_edges, resampled, worn_volume
-from tribodyn.wear.jump import JumpControl, load_change
+from tribodyn.wear.archard import Archard, JumpControl, between_edges, load_change, resampled, worn_volume
 from tribodyn.wear.running_in import loaded_depth, worn_roughness
 
 __all__ = [

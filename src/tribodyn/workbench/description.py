@@ -3,7 +3,7 @@
 from functools import cache
 from typing import Any, Final
 
-from tribodyn.core.versions import version
+from tribodyn.core.platforms import version
 from tribodyn.mechanisms.catalogue import MECHANISMS, templates
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 from tribodyn.mechanisms.results import key_numbers_of, key_results_of_case

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.errors import Stopped, TribodynError
-from tribodyn.core.versions import unexpected
+from tribodyn.core.platforms import unexpected
 from tribodyn.workbench import messages
 
 if TYPE_CHECKING:

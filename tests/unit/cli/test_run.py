@@ -15,7 +15,7 @@ import tribodyn.report
 import tribodyn.simulation
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError, IntegrationFailure
-from tribodyn.core.versions import provenance
+from tribodyn.core.platforms import provenance
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 
 ResultFactory = Callable[..., xr.Dataset]

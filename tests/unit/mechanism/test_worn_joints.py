@@ -12,7 +12,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes import Ball, Cylinder, Sphere
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.results.joint_flash import _sliding
+from tribodyn.mechanism.results.temperature_effects import _sliding
 from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.wear import worn_roughness
 

@@ -17,7 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.studies import Sampling, calibration, fit_report, posterior
 from tribodyn.studies.calibration import EVALUATIONS, Calibration, VariedKey
-from tribodyn.studies.identifiability import statements
+from tribodyn.studies.fit_report import statements
 from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve, read
 
 TIMES: FloatArray = np.linspace(0.0, 2.0, 40)

@@ -11,8 +11,7 @@ import tribodyn as td
 from tribodyn.core.arrays import FloatArray
 from tribodyn.results.columns import variable
 from tribodyn.studies.calibration import Calibration, VariedKey
-from tribodyn.studies.fit_report import fitted_keys
-from tribodyn.studies.identifiability import statements
+from tribodyn.studies.fit_report import fitted_keys, statements
 from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve
 
 pytestmark = pytest.mark.long

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tribodyn.wear.scatter import LEAST, of_repeats
+from tribodyn.wear.archard import LEAST, of_repeats
 
 
 def test_the_interval_of_repeats_is_that_of_one_more_part() -> None:

@@ -78,8 +78,7 @@ def execute(args: Namespace) -> int:
     from tribodyn.results.atomic import write_text
     from tribodyn.studies import posterior
     from tribodyn.studies.calibration import Calibration, VariedKey
-    from tribodyn.studies.fit_report import as_json, fitted_keys, save
-    from tribodyn.studies.identifiability import statements
+    from tribodyn.studies.fit_report import as_json, fitted_keys, save, statements
 
     _check(args)
     case, console = chosen_case(args), Console.of(args)

@@ -27,8 +27,8 @@ import numpy as np
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
-from tribodyn.joints.flat_walls import FlatWalls, resting
 from tribodyn.joints.shapes import Cylinder, Sphere
+from tribodyn.joints.touch import FlatWalls, resting
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_global_axes, motion_of
 from tribodyn.mechanism.assembly.output_values import Output

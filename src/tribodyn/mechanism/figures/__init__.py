@@ -5,7 +5,7 @@ from typing import Final
 from tribodyn.figures import chart, orbits
 from tribodyn.figures.figure_family import Animation, Family
 from tribodyn.mechanism.figures import animation as film
-from tribodyn.mechanism.figures import copies, joints, mechanism
+from tribodyn.mechanism.figures import joints, mechanism
 from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
 from tribodyn.mechanism.sections.joints import ORBITS
 from tribodyn.views.wear import WEAR_HISTORY
@@ -16,7 +16,7 @@ FIGURES: Final[dict[str, Family]] = {
         mechanism.FAMILY,
         mechanism.MODE_SHAPES,
         *map(chart.family, CHARTS),
-        copies.FAMILY,
+        joints.FAMILY,
         joints.HODOGRAPHS,
         orbits.family(ORBITS),
         *joints.MAPS,

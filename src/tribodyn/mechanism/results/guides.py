@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Place
-from tribodyn.joints.flat_walls import FlatWalls
 from tribodyn.joints.shapes import Surface
+from tribodyn.joints.touch import FlatWalls
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import LINE
 from tribodyn.mechanism.assembly.parts_by_number import Model

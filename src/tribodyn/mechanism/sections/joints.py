@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.joints.flat_walls import FlatWalls
+from tribodyn.joints.touch import FlatWalls
 from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections.charts import Shafts

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.joints.flat_walls import FlatWalls
 from tribodyn.joints.shapes import Guide, Slot
+from tribodyn.joints.touch import FlatWalls
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
 from tribodyn.mechanism.frames import frame

@@ -1,5 +1,6 @@
-"""Figures 16, 17 and 18: what the size of the clearance changes."""
+"""Figures 16 to 19: what the size of the clearance changes, in impacts, errors and wear."""
 
+from collections.abc import Mapping
 from itertools import product
 from typing import Final
 
@@ -9,10 +10,74 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.style import DASHED, GREY, INK, SMALL, TEXT, Curves, caption, finish, lines, sheet
-from tribodyn.papers.cheng_2022.layout import STYLES, by_clearance, enlarge, first_cycle, keep, limits
-from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth, mean_rate, over_clearances
+from tribodyn.figures.pressure import draw_map
+from tribodyn.figures.style import (
+    DASHED,
+    GREY,
+    INK,
+    SMALL,
+    TEXT,
+    Curves,
+    caption,
+    colour_bar,
+    finish,
+    lines,
+    sheet,
+)
+from tribodyn.papers.cheng_2022.layout import ANGLE, STYLES, by_clearance, enlarge, first_cycle, keep, limits
+from tribodyn.papers.cheng_2022.runs import (
+    PaperFigure,
+    Runs,
+    finer,
+    is_smooth,
+    mean_rate,
+    on_grid,
+    over_clearances,
+)
+from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre_velocity
+from tribodyn.views.bushing import Unrolled, unrolled
 from tribodyn.views.events import series
+
+HARDEST: Final = 0.05  #: Samples follow the steps for this long after a reversal [s]: ``run.impact_window``.
+_PARTS: Final = {"c": "contact", "k": "rigid", "d": "damping"}
+
+
+def windows(run: xr.Dataset, length: float = HARDEST) -> list[xr.Dataset]:
+    """Return the samples in a time [s] after each reversal; the start is not one."""
+    time = run["time"].values
+    turns = run["reversal_time"].values[1:]
+    return [run.sel(time=(time >= turn) & (time < turn + length)) for turn in turns]
+
+
+def peaks(run: xr.Dataset, part: str) -> FloatArray:
+    """Return the largest contact (``c``), rigid (``k``) or damping (``d``) force of each reversal [N].
+
+    From the accepted steps; the start, at which the trunnion falls, is no reversal.
+    """
+    return np.asarray(run[f"{_PARTS[part]}_force_impact"].values[1:])
+
+
+def damping_along_rigid(run: xr.Dataset) -> list[tuple[float, float]]:
+    """Return the largest and the least damping force along the rigid force at each reversal [N]."""
+    found = []
+    for rows in windows(run):
+        rigid = np.stack([rows[f"F_k{axis}"].values for axis in "xy"])
+        damping = np.stack([rows[f"F_d{axis}"].values for axis in "xy"])
+        length = np.hypot(*rigid)
+        touching = length > 0.0
+        along = (rigid * damping).sum(axis=0)[touching] / length[touching]
+        found.append((float(along.max()), float(along.min())))
+    return found
+
+
+def collision_speed(run: xr.Dataset) -> float:
+    """Return the largest speed of the three centres after the reversals [mm/s]."""
+    return max(
+        float(np.hypot(*centre_velocity(rows, height)).max())
+        for rows in windows(run)
+        for _, height, *_ in CENTRES
+    )
+
 
 DEGREES: Final = float(np.rad2deg(1.0))
 #: Speed errors that section 5.3 prints [deg/s], by clearance [µm].
@@ -171,3 +236,60 @@ def draw_attitude(dataset: xr.Dataset) -> Figure:
 MOTION: Final = PaperFigure("fig16", "motion of the vane with different clearances", motion_data, draw_motion)
 FORCES: Final = PaperFigure("fig17", "forces with different clearances", force_data, draw_forces)
 ATTITUDE: Final = PaperFigure("fig18", "attitude with different clearances", attitude_data, draw_attitude)
+
+
+CYCLES: Final = (100, 200, 300, 400)
+DIVISOR: Final = 65.0  #: The bare number that the paper's depths come out with, see Eq. 47 in the errata.
+_PICOMETRE: Final = 1e-12
+
+
+def worn(
+    runs: Runs, formulation: str, clearance: float, cycles: int, changes: Mapping[str, object] | None = None
+) -> xr.Dataset:
+    """Return a wear campaign in the paper's convention, with some keys of the case changed."""
+    campaign = {"wear.cycles": cycles, "wear.paper_hardness_divisor": DIVISOR}
+    return runs.vsv(formulation, clearance, {**campaign, **(changes or {})})
+
+
+def data(runs: Runs, formulation: str) -> xr.Dataset:
+    """Return wear depth [m] by clearance, cycles, angle and height."""
+    index = xr.Variable("cycles", np.array(CYCLES), {"long_name": "drive cycles", "units": "1"})
+    rows = []
+    for clearance in runs.clearances:
+        depths = [worn(runs, formulation, clearance, cycles)[["wear_depth"]] for cycles in CYCLES]
+        rows.append(xr.concat(depths, dim=index, combine_attrs="override"))
+    finest = max(rows, key=lambda row: row.sizes["theta"])
+    return over_clearances([on_grid(row, finest["theta"].values, finest["z"].values) for row in rows])
+
+
+def draw(dataset: xr.Dataset) -> Figure:
+    """Draw a row a clearance: the worn bushing laid flat, and its deeper edge as it wears."""
+    figure = sheet(dataset, "Fig. 19  Wear depth of the bushing with different clearances", 9.6)
+    panels = figure.subplots(dataset.sizes["clearance"], 2, sharex=True, width_ratios=(1.3, 1.0))
+    depth = dataset["wear_depth"].values / _PICOMETRE
+    laid = unrolled(dataset, depth[:, -1], theta=dataset["theta"].values)
+    for i, (plan, profile) in enumerate(panels):
+        mesh = draw_map(plan, laid, depth[i, -1], float(depth.max()))
+        plan.set_ylabel(laid.label, size=TEXT)
+        caption(plan, f"({'abcde'[i]}) clearance {dataset['clearance'].values[i] * 1e6:g} µm, 400 cycles")
+        _profiles(profile, laid, depth[i])
+        profile.set_ylim(0.0, 1.05 * float(depth.max()))
+    for axes in panels[-1]:
+        axes.set_xlabel(ANGLE, size=TEXT)
+    colour_bar(figure, mesh, panels[:, 0], "wear depth [pm]", shrink=0.5, location="bottom")
+    return figure
+
+
+def _profiles(axes: Axes, laid: Unrolled, depth: FloatArray) -> None:
+    """Draw the depth along the deeper edge after 100 to 400 cycles."""
+    edge = -1 if depth[-1, :, -1].max() >= depth[-1, :, 0].max() else 0
+    curves: Curves = []
+    for k, cycles in enumerate(CYCLES):
+        curves.append((laid.turned(depth[k])[:, edge], f"{cycles} cycles", *STYLES[k]))
+    lines(axes, laid.angle, curves, width=1.0)
+    axes.legend(frameon=False, fontsize=SMALL - 1)
+    caption(axes, f"{'top' if edge else 'bottom'} edge")
+    finish(axes, y_label="depth [pm]")
+
+
+WEAR: Final = PaperFigure("fig19", "wear depth with different clearances", data, draw)

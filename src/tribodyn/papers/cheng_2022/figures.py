@@ -7,7 +7,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.figures.figure_family import save_png
-from tribodyn.papers.cheng_2022 import clearance, drive, journal, pressure, trunnion, undamped, wear
+from tribodyn.papers.cheng_2022 import clearance, drive, journal, trunnion, undamped
 from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
@@ -25,11 +25,11 @@ FIGURES: Final[dict[str, PaperFigure]] = {
         trunnion.FORCES,
         trunnion.PATH,
         trunnion.VELOCITIES,
-        pressure.PRESSURE,
+        trunnion.PRESSURE,
         clearance.MOTION,
         clearance.FORCES,
         clearance.ATTITUDE,
-        wear.WEAR,
+        clearance.WEAR,
         drive.SPLIT,
         undamped.UNDAMPED,
     )

@@ -10,7 +10,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed, weights
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, REVIEWED, VARIED, above, below
-from tribodyn.papers.cheng_2022.impacts import HARDEST, windows
+from tribodyn.papers.cheng_2022.clearance import HARDEST, windows
 from tribodyn.papers.cheng_2022.runs import forward, smooth
 from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre, centre_velocity
 

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, above, below
 from tribodyn.papers.cheng_2022.claims.forces import size, time_share
-from tribodyn.papers.cheng_2022.impacts import windows
+from tribodyn.papers.cheng_2022.clearance import windows
 from tribodyn.papers.cheng_2022.runs import forward, smooth
 
 _NO_F_AIRY: Final[Mapping[str, object]] = {"loads.air_force_y": "0 N"}

@@ -12,7 +12,7 @@ from tribodyn.papers.cheng_2022.claims.attitude import tilt
 from tribodyn.papers.cheng_2022.claims.base import MANY_RUNS, Claim, Finding, Trial, least_growth, listed
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, VARIED, above, below
 from tribodyn.papers.cheng_2022.claims.forces import size
-from tribodyn.papers.cheng_2022.impacts import collision_speed, peaks
+from tribodyn.papers.cheng_2022.clearance import collision_speed, peaks
 from tribodyn.papers.cheng_2022.runs import smooth
 
 _NARROW: Final = 30e-6  #: Wider clearances are the paper's large ones, 35 and 40 µm [m].

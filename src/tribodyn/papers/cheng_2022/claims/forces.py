@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed, weights
 from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, VARIED, above, below
-from tribodyn.papers.cheng_2022.impacts import damping_along_rigid, peaks, windows
+from tribodyn.papers.cheng_2022.clearance import damping_along_rigid, peaks, windows
 from tribodyn.papers.cheng_2022.runs import forward, is_smooth, smooth
 
 _STEP: Final = 5e-3  #: Time between the instants at which two cycles are compared [s].

@@ -16,8 +16,8 @@ from tribodyn.papers.cheng_2022.claims.base import (
     listed,
 )
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, above, below, near
+from tribodyn.papers.cheng_2022.clearance import CYCLES, worn
 from tribodyn.papers.cheng_2022.runs import CLEARANCES
-from tribodyn.papers.cheng_2022.wear import CYCLES, worn
 from tribodyn.results.dataset import WEAR_SCATTER, json_attribute
 
 _WIDE: Final = CLEARANCES[-1]

@@ -3,7 +3,7 @@ import pytest
 from tribodyn.cases.keys import keys_of
 from tribodyn.cli.main import COMMANDS
 from tribodyn.core.errors import InputError
-from tribodyn.core.synonyms import SYNONYMS
+from tribodyn.core.quoting import SYNONYMS
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanisms.catalogue import kinds, load_case, parse_case
