@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tribodyn.figures.figure_family import Family
+    from tribodyn.figures.chart import Family
 
 ORBIT: Final = "orbit"
 #: Names of the figure of a shaft in its clearance circle, by mechanism.

@@ -5,12 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.validation.sets.oblique_impact.rebound import (
-    ImpactingSphere,
-    TangentialLaw,
-    _Compliant,
-    rebound,
-)
+from tribodyn.validation.sets.oblique_impact import ImpactingSphere, TangentialLaw, _Compliant, rebound
 
 SPHERE = ImpactingSphere(2.5e-3, 4000.0, (380e9, 70e9), (0.23, 0.25), friction=0.092, restitution=0.98)
 LAWS: tuple[TangentialLaw, ...] = ("regularised", "compliant")

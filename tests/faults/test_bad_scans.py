@@ -182,7 +182,7 @@ def test_huge_scans(refused: Callable[..., str], tmp_path: Path, monkeypatch: py
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tribodyn.surfaces.table.MOST_POINTS", 1000)
     assert "cut out a part" in refused("scan.csv")
-    monkeypatch.setattr("tribodyn.surfaces.instrument.MOST_POINTS", 1000)
+    monkeypatch.setattr("tribodyn.surfaces.read.MOST_POINTS", 1000)
     np.save(tmp_path / "scan.npy", np.zeros((50, 50)))
     assert "cut out a part" in refused("scan.npy", "--unit", "um", "--spacing", "1 um")
 

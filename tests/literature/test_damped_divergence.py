@@ -13,7 +13,7 @@ import pytest
 from tribodyn.integrate import integrate
 from tribodyn.kernels.vsv import functions, layout
 from tribodyn.kernels.vsv.quantities import WATCHED
-from tribodyn.mechanisms.peaks import of_reversals
+from tribodyn.mechanisms.results import of_reversals
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
 OF_TABLE_3 = 0.84

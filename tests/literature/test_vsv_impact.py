@@ -9,7 +9,7 @@ import pytest
 
 from tribodyn.integrate import integrate
 from tribodyn.kernels.vsv.quantities import WATCHED
-from tribodyn.mechanisms.peaks import of_reversals
+from tribodyn.mechanisms.results import of_reversals
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 
 

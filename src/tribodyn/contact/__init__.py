@@ -8,10 +8,10 @@ from importlib.metadata import entry_points
 from typing import Any, Final, Protocol, cast
 
 from tribodyn.contact.asperities import SEPARATIONS
+from tribodyn.contact.bulk import Liner, lined
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.contact.damping_factors import DAMPING_FACTORS
 from tribodyn.contact.kogut_etsion import KogutEtsion
-from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.parameter import parameters_of
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair

@@ -1,5 +1,6 @@
-"""Contact pressure on the unrolled bushing at the snapshots."""
+"""Figures of bushings: contact pressure, paths of shafts and worn depth."""
 
+from functools import partial
 from string import ascii_lowercase
 from typing import Any, Final, TypeAlias
 
@@ -9,13 +10,17 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import Colormap, LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures.figure_family import Family
+from tribodyn.figures import style
+from tribodyn.figures.chart import Family
 from tribodyn.figures.style import GREY, SMALL, TEXT, caption, colour_bar, note, sheet
 from tribodyn.views.bushing import WALL, Unrolled, unrolled
 from tribodyn.views.events import series, signed
+from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
+from tribodyn.views.wear import WORN, fitting_unit
 
 # White where there is nothing, then steadily darker: a grey print keeps the order.
 COLOURS: Final[Colormap] = LinearSegmentedColormap.from_list(
@@ -154,3 +159,91 @@ FAMILY: Final = Family(
     needs=("pressure", "theta", "z", "snapshot_theta_v", "snapshot_direction"),
     draw=draw,
 )
+
+
+WEAR_TITLE: Final = "Wear depth of the bushing"
+
+
+def draw_wear(dataset: xr.Dataset) -> Figure:
+    """Draw the depth on the unrolled bushing, and along its two edges and its middle."""
+    figure = style.sheet(dataset, WEAR_TITLE, 4.6)
+    plan, profile = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))
+    depth = np.nan_to_num(dataset["wear_depth"].values)
+    unit, size = fitting_unit(float(depth.max(initial=0.0)))
+    depth = depth / size
+    laid = unrolled(dataset, depth[None])
+    mesh = draw_map(plan, laid, depth, float(depth.max(initial=0.0)) or 1.0)
+    _profiles(profile, laid, depth)
+    _key_result(plan, dataset, depth, unit)
+    plan.set_ylabel(laid.label, size=style.TEXT)
+    style.finish(profile, WALL, f"depth [{unit}]")
+    style.colour_bar(figure, mesh, [plan, profile], f"wear depth [{unit}]", shrink=0.7)
+    return figure
+
+
+def _key_result(axes: Axes, dataset: xr.Dataset, depth: FloatArray, unit: str) -> None:
+    """Write depth and number of cycles."""
+    time, period = dataset["time"].values, dataset.attrs.get("cycle_period")
+    after = f" after {np.ptp(time) / period:.3g} cycles" if period and time.size else ""
+    if "wear_cycles_reached" in dataset.attrs:
+        after = f" after {dataset.attrs['wear_cycles_reached']} cycles"
+    style.caption(axes, f"deepest {depth.max(initial=0.0):.3g} {unit}{after}")
+
+
+def _profiles(axes: Axes, laid: Unrolled, depth: FloatArray) -> None:
+    """Draw the depth around the bushing at both edges and in the middle."""
+    z, around = laid.z, laid.turned(depth)
+    middle = int(np.argmin(np.abs(z)))
+    curves = [
+        (around[:, -1], f"top edge, z = {signed(z[-1])} mm", style.BLUE, style.SOLID),
+        (around[:, middle], "middle", style.INK, style.DOTTED),
+        (around[:, 0], f"bottom edge, z = {signed(z[0])} mm", style.VERMILION, style.DASHED),
+    ]
+    style.lines(axes, laid.angle, curves)
+    axes.set_ylim(bottom=0.0)
+    style.legend(axes, 3)
+
+
+WEAR_FAMILY: Final = Family(
+    name="wear_depth",
+    title=WEAR_TITLE,
+    caption=f"{WORN} Above: the bushing laid flat. Below: around its edges and its middle.",
+    needs=("wear_depth", "theta", "z"),
+    draw=draw_wear,
+)
+
+
+def family(view: OrbitView) -> Family:
+    """Return the figure of orbits."""
+    return Family(view.still, view.title, view.caption, view.needs, partial(draw_orbits, view))
+
+
+def draw_orbits(view: OrbitView, dataset: xr.Dataset) -> Figure:
+    """Draw the path of each point over the playback [µm]."""
+    orbits, which = view.orbits(dataset)
+    panels = [(orbit, track) for orbit in orbits for track in orbit.tracks]
+    names = [orbit.name if len(orbit.tracks) == 1 else track.name for orbit, track in panels]
+    figure, every = style.grid(dataset, f"{view.title}{which}", names, 2.9)
+    for axes, name, panel in zip(every, names, panels, strict=False):
+        _draw_track(axes, *panel)
+        style.caption(axes, name)
+    if not panels:
+        style.note(every[0], "nothing computed")
+    for axes in every:
+        style.finish(axes, "X [µm]", "Y [µm]")
+    return figure
+
+
+def _draw_track(axes: Axes, orbit: Orbit, track: OrbitPath) -> None:
+    """Draw the circle, named by the angles of maps of its wall, and one path with its first point."""
+    reach = 1.1 * orbit.reach
+    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
+    axes.plot(0.0, 0.0, "+", color=style.GREY, ms=7, mew=0.8)
+    look: dict[str, Any] = {"fill": False, "edgecolor": style.GREY, "linewidth": 1.0}
+    wall = Polygon(orbit.corners, **look) if orbit.corners else Circle((0.0, 0.0), orbit.clearance, **look)
+    axes.add_patch(wall)
+    for theta in () if orbit.corners else (0, 90, 180, 270):
+        x, y = (1.12 * orbit.clearance * way(np.deg2rad(theta)) for way in (np.cos, np.sin))
+        axes.text(x, y, f"{theta}°", size=style.SMALL - 1.5, color=style.GREY, ha="center", va="center")
+    axes.plot(*track.path.T, color=style.BLUE, linewidth=0.8)
+    axes.plot(*track.path[:1].T, "o", ms=4, mfc="white", mec=style.INK, mew=1.1, zorder=5)

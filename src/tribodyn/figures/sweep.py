@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.figures import style
-from tribodyn.figures.figure_family import Family
+from tribodyn.figures.chart import Family
 from tribodyn.views.events import finite
 from tribodyn.views.numbers import as_read
 

@@ -225,7 +225,7 @@ class _CompiledWalk(Walk):
 
     def _reason(self, state: MebdfState) -> str:
         """Return why the core gave up, in words."""
-        from mebdf.reasons import reason
+        from mebdf.checks import reason
 
         return reason(state, self.problem.state_names, self._entry_not_finite)
 

@@ -6,8 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.contact.bulk import Bulk
-from tribodyn.contact.liner import Liner
+from tribodyn.contact.bulk import Bulk, Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record, names

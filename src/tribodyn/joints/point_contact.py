@@ -19,8 +19,8 @@ import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.contact import OURS
+from tribodyn.contact.bulk import Liner, lined
 from tribodyn.contact.contact_law import MEMORYLESS, ContactLaw
-from tribodyn.contact.liner import Liner, lined
 from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError

@@ -7,8 +7,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from mebdf.kernels.elementary import portable
-from tribodyn.contact.bulk import Bulk
-from tribodyn.contact.liner import Liner
+from tribodyn.contact.bulk import Bulk, Liner
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.joints.point_contact import SURFACE

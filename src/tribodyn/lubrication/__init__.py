@@ -5,10 +5,9 @@ calls stands in ``kernels.film``. :func:`film_state` evaluates a film at one sta
 finds where it carries a load.
 """
 
-from tribodyn.lubrication.equilibrium import FilmEquilibrium, film_equilibrium
+from tribodyn.lubrication.equilibrium import FilmEquilibrium, FilmState, explain, film_equilibrium, film_state
 from tribodyn.lubrication.factors import Roughness
 from tribodyn.lubrication.oil_film import BOUNDARIES, CAVITATION, Film, FilmGrid, stacked_data, stacked_memory
-from tribodyn.lubrication.state import FilmState, explain, film_state
 
 __all__ = [
     "BOUNDARIES",

@@ -28,7 +28,7 @@ from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import Variable
 
 if TYPE_CHECKING:
-    from tribodyn.figures.figure_family import Animation, Family
+    from tribodyn.figures.chart import Animation, Family
     from tribodyn.mechanisms.bushing import Bearing
     from tribodyn.views.common import Overlay
     from tribodyn.views.section import Chapter

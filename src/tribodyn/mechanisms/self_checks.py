@@ -10,7 +10,7 @@ from tribodyn.cases.beyond import FollowedTable
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.touch import Touch
-from tribodyn.mechanisms.peaks import impact_time
+from tribodyn.mechanisms.results import impact_time
 
 ENERGY_LIMIT: Final = 0.01
 GRID_LIMIT: Final = 0.005

@@ -11,7 +11,7 @@ import xarray as xr
 from PIL import Image
 
 from tribodyn.core.files import read_regular
-from tribodyn.figures.figure_family import Family
+from tribodyn.figures.chart import Family
 from tribodyn.views.section import Chapter, Section
 
 Shown = dict[str, Any]

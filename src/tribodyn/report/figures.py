@@ -13,14 +13,14 @@ import xarray as xr
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 from tribodyn.figures import sweep
-from tribodyn.figures.figure_family import Family, remove, save
+from tribodyn.figures.chart import Family, remove, save
 from tribodyn.mechanisms.results import all_there, mechanism_of
 from tribodyn.results.atomic import write_bytes
 from tribodyn.views.playback import playback_times
 
 if TYPE_CHECKING:
     from tribodyn.core.arrays import FloatArray
-    from tribodyn.figures.figure_family import Animation
+    from tribodyn.figures.chart import Animation
 
 
 def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:

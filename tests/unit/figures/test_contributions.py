@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.figures.contributions import TOGETHER, Shares, draw
+from tribodyn.figures.builds import TOGETHER, Shares, draw_shares
 
 JOINTS = ("small", "large", "against")
 SIMULATED = np.array([0.3, 0.9, -0.3])
@@ -12,7 +12,7 @@ SIMULATED = np.array([0.3, 0.9, -0.3])
 @pytest.mark.parametrize("causes", [("clearance", "tilt", "friction", "bending"), ()])
 def test_bars_are_sorted_and_causes_add_up(causes: tuple[str, ...]) -> None:
     estimate = np.outer(SIMULATED, [0.4, 0.3, 0.2, 0.1])[:, : len(causes)]
-    figure = draw(Shares("Shares", "Case", JOINTS, SIMULATED, 0.1, estimate, causes))
+    figure = draw_shares(Shares("Shares", "Case", JOINTS, SIMULATED, 0.1, estimate, causes))
     (axes,) = figure.axes
     assert [text.get_text() for text in axes.get_yticklabels()] == ["large", "small", "against", TOGETHER]
     simulated, *parts = axes.containers

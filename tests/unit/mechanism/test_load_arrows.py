@@ -6,8 +6,8 @@ from tests.unit.mechanism.made_up import result
 
 from tribodyn.cases.case import with_entries
 from tribodyn.mechanism.assembly.skeleton import case_of, skeleton
-from tribodyn.mechanism.sections.load_arrows import LoadArrows, load_arrows
 from tribodyn.mechanism.sections.mechanism import at_frames, data
+from tribodyn.mechanism.sections.scene import LoadArrows, load_arrows
 from tribodyn.views.playback import playback_times
 
 TURN = 0.012  #: Time of one turn of the crank [s].

@@ -11,8 +11,7 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.mechanism.model.drives_and_loads import DriveKeys
 from tribodyn.mechanism.model.reversals import Reversals
-from tribodyn.mechanisms.peaks import of_rows
-from tribodyn.mechanisms.results import write_run
+from tribodyn.mechanisms.results import of_rows, write_run
 
 
 def drive(**signal: dict[str, Any]) -> DriveKeys:

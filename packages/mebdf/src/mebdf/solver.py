@@ -17,6 +17,7 @@ from mebdf.checks import (
     inner_times,
     largest_step,
     order,
+    reason,
     resolved,
     sizes,
     span,
@@ -37,7 +38,6 @@ from mebdf.kernels.phases import FAILED, NEED_F, NEED_JACOBIAN, STEP_ACCEPTED
 from mebdf.kernels.state import HISTORY, F, Y, new_state
 from mebdf.mass import LARGEST, MassMatrix, read_mass, split, with_index
 from mebdf.native import Ahead, Native, Step, native
-from mebdf.reasons import reason
 
 ENDS_OF_STEP: Final = (STEP_ACCEPTED, FAILED)
 OF_TOLERANCE: Final = 0.2  #: Power of the tolerance to which steps grow with it.

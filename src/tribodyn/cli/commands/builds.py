@@ -93,7 +93,7 @@ def _draw(found: Builds, title: str, folder: os.PathLike[str]) -> None:
     from pathlib import Path
 
     from tribodyn.figures.builds import draw
-    from tribodyn.figures.figure_family import save
+    from tribodyn.figures.chart import save
 
     Path(folder).mkdir(exist_ok=True)
     save(draw(found.numbers, title), Path(folder), "builds")

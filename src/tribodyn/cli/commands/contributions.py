@@ -27,7 +27,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="where runs are kept (default: contributions-CASE)"
     )
-    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw no figures")
+    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw_shares no figures")
     parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 
@@ -54,14 +54,14 @@ def execute(args: Namespace) -> int:
 
 def _draw(found: Iterable[OutputShares], title: str, folder: Path) -> None:
     """Draw the shares in the error of each output."""
-    from tribodyn.figures.contributions import Shares, draw
-    from tribodyn.figures.figure_family import save
+    from tribodyn.figures.builds import Shares, draw_shares
+    from tribodyn.figures.chart import save
 
     folder.mkdir(exist_ok=True)
     for one in found:
         words = f"Shares in the error of {one.output}, {one.together:.4g} {one.unit} root mean square"
         shares = Shares(words, title, one.joints, one.shares, one.interaction, one.estimate, one.causes)
-        save(draw(shares), folder, f"contributions_{one.output}")
+        save(draw_shares(shares), folder, f"contributions_{one.output}")
 
 
 def _tell(one: OutputShares, console: Console) -> None:

@@ -130,7 +130,7 @@ def _drawn(surface: MeasuredSurface, others: list[MeasuredSurface]) -> Figure:
 
 def _save(folder: Path, outcome: dict[str, Any], block: str, figure: Figure) -> None:
     """Write numbers, block and figure."""
-    from tribodyn.figures.figure_family import save_png
+    from tribodyn.figures.chart import save_png
     from tribodyn.results.atomic import write_text
 
     (folder / FIGURES).mkdir(exist_ok=True)

@@ -2,8 +2,8 @@
 
 from typing import Final
 
-from tribodyn.figures import chart, orbits
-from tribodyn.figures.figure_family import Animation, Family
+from tribodyn.figures import chart, pressure
+from tribodyn.figures.chart import Animation, Family
 from tribodyn.mechanism.figures import animation as film
 from tribodyn.mechanism.figures import joints, mechanism
 from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
@@ -18,7 +18,7 @@ FIGURES: Final[dict[str, Family]] = {
         *map(chart.family, CHARTS),
         joints.FAMILY,
         joints.HODOGRAPHS,
-        orbits.family(ORBITS),
+        pressure.family(ORBITS),
         *joints.MAPS,
         chart.family(ENERGY),
         chart.family(WEAR_HISTORY),

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from tribodyn.figures.figure_family import Family
+from tribodyn.figures.chart import Family
 from tribodyn.figures.pressure import draw_map
 from tribodyn.figures.style import (
     BLUE,

@@ -13,7 +13,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity
 from tribodyn.core.signals import Signal
 from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys
-from tribodyn.mechanisms.peaks import impact_time, of_rows
+from tribodyn.mechanisms.results import impact_time, of_rows
 from tribodyn.mechanisms.self_checks import of_reversals
 from tribodyn.mechanisms.shaft_loads import inside
 

@@ -6,7 +6,7 @@ from typing import Final
 
 import xarray as xr
 
-from tribodyn.figures.figure_family import save_png
+from tribodyn.figures.chart import save_png
 from tribodyn.papers.cheng_2022 import clearance, drive, journal, trunnion, undamped
 from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown

@@ -4,7 +4,6 @@ from typing import Final
 
 from tribodyn.papers.cheng_2022.claims import (
     attitude,
-    causes,
     clearance,
     damping,
     errors,
@@ -12,7 +11,6 @@ from tribodyn.papers.cheng_2022.claims import (
     journal,
     method,
     pressure,
-    undamped,
     wear,
 )
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
@@ -20,13 +18,13 @@ from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, a
 
 #: The conclusion that matters most, then in the order of the paper.
 CLAIMS: Final[tuple[Claim, ...]] = (
-    *undamped.CLAIMS,
+    *damping.CLAIMS,
     *damping.CLAIMS,
     *method.CLAIMS,
     *journal.CLAIMS,
     *forces.CLAIMS,
     *attitude.CLAIMS,
-    *causes.CLAIMS,
+    *forces.CAUSE_CLAIMS,
     *pressure.CLAIMS,
     *errors.CLAIMS,
     *clearance.CLAIMS,

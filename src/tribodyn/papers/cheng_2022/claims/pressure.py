@@ -9,7 +9,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, VARIED, above, below
-from tribodyn.papers.cheng_2022.claims.causes import CAUSE, NO_M_AIR
+from tribodyn.papers.cheng_2022.claims.forces import CAUSE, NO_M_AIR
 
 ZONE: Final = 0.05  #: Contact is where the pressure exceeds this share of its peak.
 SHARES: Final = (0.02, ZONE, 0.1)  #: Other shares that are tried: the paper gives none.

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.figures import chart, orbits, pressure, style, wear
-from tribodyn.figures.figure_family import Family
+from tribodyn.figures import chart, pressure, style
+from tribodyn.figures.chart import Family
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.sections import (
     CHARTS,
@@ -118,9 +118,9 @@ FIGURES: Final[dict[str, Family]] = {
     family.name: family
     for family in (
         *map(chart.family, CHARTS),
-        orbits.family(ORBIT),
+        pressure.family(ORBIT),
         pressure.FAMILY,
-        wear.FAMILY,
+        pressure.WEAR_FAMILY,
         FAMILY,
         chart.family(WEAR_HISTORY),
     )

@@ -14,7 +14,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.signals import Signal
 from tribodyn.joints import BushingJoint
-from tribodyn.mechanisms.peaks import impact_time
+from tribodyn.mechanisms.results import impact_time
 from tribodyn.mechanisms.shaft_loads import Term, crossings
 
 if TYPE_CHECKING:

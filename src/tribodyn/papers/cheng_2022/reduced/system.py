@@ -34,8 +34,8 @@ from tribodyn.mechanisms.flash import flash_of_bushing
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, limits_of
 from tribodyn.mechanisms.output_numbers import lives, shaft_displacements
-from tribodyn.mechanisms.peaks import of_reversals, of_run
 from tribodyn.mechanisms.playback import frame_times, merged, shown
+from tribodyn.mechanisms.results import of_reversals, of_run
 from tribodyn.mechanisms.self_checks import beyond_law, extremes, instant, of_clearance, of_tables, yielding
 from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
