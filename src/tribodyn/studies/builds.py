@@ -250,12 +250,11 @@ class BuildRuns:
         self.of_build: int = next(iter(case.pattern.values())).count
         if copies < max(self.of_build, coupled * self.of_build):
             raise InputError(f"given {copies}; {coupled or 1} builds have more copies", key="--copies")
-        if len({name.partition("[")[0] for name in case.outputs}) != 1:
-            words = "the errors of one output are compared, which is repeated: write no other ones"
+        repeated = {name.partition("[")[0]: keys.unit for name, keys in case.outputs.items() if "[" in name}
+        if len(repeated) != 1:
+            words = f"the errors of one repeated output are compared, not of {len(repeated)}"
             raise InputError(words, key="outputs")
-        self._output, self.unit = next(
-            (name.partition("[")[0], keys.unit) for name, keys in case.outputs.items()
-        )
+        [(self._output, self.unit)] = repeated.items()
         span = min(case.duration, getattr(case, "period", None) or case.duration)
         self._instants = [float(f"{span * (k + 0.5) / INSTANTS:.9g}") for k in range(INSTANTS)]
         self._shares = SAMPLERS["lhs"](copies, len(case.scattered), seed).T

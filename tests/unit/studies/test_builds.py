@@ -60,10 +60,10 @@ def test_numbers_of_a_build_are_those_of_its_copies() -> None:
         ((SCATTER, ""), 9, {}, "nothing differs from copy to copy"),
         (("", ""), 9, {"copies_spread_max_um": 1.0}, "allowed: copies_spread_max_deg"),
         (
-            ("[outputs.vane]", '[outputs.ring]\nbody = "ring"\n[outputs.vane]'),
+            ("[outputs.vane]", '[outputs.other]\nbody = "vane"\n[outputs.vane]'),
             9,
             {},
-            "the errors of one output",
+            "the errors of one repeated output are compared, not of 2",
         ),
     ],
 )
@@ -102,7 +102,7 @@ def test_what_scatters_is_refused_where_copies_have_their_values() -> None:
 
 def test_copies_alone_are_those_of_the_ring_that_holds_them(tmp_path: Path) -> None:
     """The template with rigid levers: alone and together copies differ by what the ring gives way."""
-    case = parse_case(TEXT, "test").replace(
+    case = parse_case(TEXT.replace("[outputs.vane]", f"{RING}[outputs.vane]"), "test").replace(
         {"run.duration": "1.5 s", "run.output_interval": "20 ms", "pattern.vanes.count": 3}
     )
     found = builds(case, copies=12, draws=500, coupled=4, directory=tmp_path, workers=0)
