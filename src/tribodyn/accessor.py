@@ -1,7 +1,7 @@
 """``result.tribodyn``: figures and key results of a result, in a notebook or a script.
 
->>> result.tribodyn.plot.orbit()  # doctest: +SKIP
->>> result.tribodyn.summary["vane_angle_error_max_deg"]  # doctest: +SKIP
+>>> figure = result.tribodyn.plot.orbit()
+>>> error = result.tribodyn.summary["error_rms_um_slider"]
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class Accessor:
 
         Examples
         --------
-        >>> result.tribodyn.sel(joint="wrist")  # doctest: +SKIP
+        >>> wrist = result.tribodyn.sel(joint="wrist")
         """
         for dim, name in chosen.items():
             if dim not in self._dataset.coords:
@@ -118,7 +118,7 @@ class Accessor:
 
         Examples
         --------
-        >>> result.tribodyn.resample(1e-3)  # doctest: +SKIP
+        >>> even = result.tribodyn.resample(1e-3)
         """
         begin, end = (float(self._dataset["time"][k]) for k in (0, -1))
         if not 0.0 < step <= end - begin:
@@ -150,7 +150,7 @@ class Accessor:
 
         Examples
         --------
-        >>> result.tribodyn.to_dataframe("forces", over="main")  # doctest: +SKIP
+        >>> table = result.tribodyn.to_dataframe("forces", over="main")
         """
         from tribodyn.results.columns import table
 
@@ -179,7 +179,7 @@ class Accessor:
 
         Examples
         --------
-        >>> result.tribodyn.animate("press.gif")  # doctest: +SKIP
+        >>> path = result.tribodyn.animate("press.gif", seconds=1.0)
         """
         from tribodyn.report.figures import animate
 

@@ -1,15 +1,27 @@
-"""The Python examples of the guide run as they are printed, each page from top to bottom."""
+"""Python examples of the guide, page by page, and of docstrings run as they are printed."""
 
 from __future__ import annotations
 
+import doctest
+import importlib
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import xarray as xr
 
-GUIDE = Path(__file__).parents[2] / "docs" / "guide"
+import tribodyn as td
+
+ROOT = Path(__file__).parents[2]
+GUIDE = ROOT / "docs" / "guide"
+MODULES = [
+    ".".join(path.relative_to(source).with_suffix("").parts).removesuffix(".__init__")
+    for source in (ROOT / "src", ROOT / "packages" / "mebdf" / "src")
+    for path in sorted(source.rglob("*.py"))
+    if "    >>> " in path.read_text(encoding="utf-8")
+]
 PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 EXAMPLES = {
     page.stem: "\n".join(blocks)
@@ -32,3 +44,18 @@ def test_guide_example_runs(code: str, after_the_demo: Path, monkeypatch: pytest
     monkeypatch.chdir(after_the_demo)
     monkeypatch.setenv("MPLBACKEND", "agg")
     exec(compile(code, "guide", "exec"), {})
+
+
+@pytest.fixture(scope="module")
+def result() -> xr.Dataset:
+    """Return what examples call ``result``."""
+    return td.simulate("slider-crank")
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_examples_in_docstrings_run(
+    module: str, result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = doctest.testmod(importlib.import_module(module), extraglobs={"result": result})
+    assert found.failed == 0 < found.attempted

@@ -95,6 +95,13 @@ def law(name: str, surfaces: SurfacePair | HasSurfacePair, **options: Any) -> Co
     ------
     InputError
         There is no such law or option, or a value is out of its range.
+
+    Examples
+    --------
+    >>> import tribodyn as td
+    >>> from tribodyn.contact import law
+    >>> f"{law('rsdc', td.load_case('slider-crank')).pressure(0.0):.4g} Pa"
+    '5.182e+08 Pa'
     """
     if name not in LAWS:
         raise InputError(f"no contact law {name!r}; there is {', '.join(LAWS)}", key="contact.law")

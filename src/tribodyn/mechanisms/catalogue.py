@@ -158,6 +158,13 @@ def load_case(
     ------
     InputError
         There is no such case or file, or something in it is wrong.
+
+    Examples
+    --------
+    >>> import tribodyn as td
+    >>> case = td.load_case("slider-crank", {"joints.wrist.clearance.radial": "30 um"})
+    >>> case.joints["wrist"].clearance.radial
+    3e-05
     """
     try:
         found = load.read_case(case, kinds(), built_in())

@@ -101,6 +101,11 @@ def read(path: str | Path) -> xr.Dataset:
     ------
     InputError
         If there is no result, it cannot be read, or it is not what its kind says.
+
+    Examples
+    --------
+    >>> import tribodyn as td
+    >>> result = td.read("out/demo")  # doctest: +SKIP
     """
     return store.read(path, {kind: mechanism.variables for kind, mechanism in MECHANISMS.items()})
 

@@ -85,6 +85,13 @@ def simulate(
         If the case asks for something that cannot be.
     Stopped
         If ``stop`` was true before anything was computed.
+
+    Examples
+    --------
+    >>> import tribodyn as td
+    >>> result = td.simulate(td.load_case("slider-crank", {"run.cycles": 1}))
+    >>> result.tribodyn.summary["status"], result.sizes["joint"]
+    ('complete', 4)
     """
     given, path = case_of(case), None if checkpoint is None else Path(checkpoint)
 
@@ -201,6 +208,12 @@ def check(case: AnyCase, *, deep: bool = False) -> Sequence[str]:
         What the run would raise.
     TribodynError
         If the run would fail at its first step.
+
+    Examples
+    --------
+    >>> import tribodyn as td
+    >>> td.check("slider-crank")[-1]
+    'degrees of freedom: 0 with ideal joints (fully driven); clearances free 2 more'
     """
     case = case_of(case)
     said = case.remarks()

@@ -132,6 +132,14 @@ def analyse(scan: Scan, treatment: Treatment = _AS_MEASURED) -> MeasuredSurface:
     ------
     InputError
         The scan or the cut-offs cannot be used.
+
+    Examples
+    --------
+    >>> from tribodyn.surfaces import SelfAffine, analyse, generate
+    >>> rough = SelfAffine(sigma=1e-6, hurst=0.8, roll_off=50e-6, shortest=5e-6)
+    >>> surface = analyse(generate(rough, (256, 256), 1e-6, seed=1))
+    >>> f"{surface.moments.m0**0.5:.3g} m"
+    '9.93e-07 m'
     """
     scan, warnings = checked(scan)
     check_cutoffs(scan, treatment)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import doctest
 import sys
 from pathlib import Path
 
@@ -14,7 +13,7 @@ from scipy.optimize import brentq
 sys.path.insert(0, str(Path(__file__).parents[3]))
 from benchmarks.dae_problems import pendulum
 from benchmarks.problems import PROBLEMS
-from mebdf import MEBDF, dae, solve_dae, solver
+from mebdf import MEBDF, solve_dae
 
 
 def solve(fun, t_span, y0, slope, **options):
@@ -237,8 +236,3 @@ def test_the_function_for_implicit_equations_takes_arguments_and_options():
     found = solve_dae(residual, (0.0, 2.0), [2.0], [0.0], args=(2.0,), jac=jac, t_eval=times, rtol=1e-7)
     expected = solve_ivp(explicit, (0.0, 2.0), [2.0], t_eval=times, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(found.y, expected.y, atol=1e-5)
-
-
-def test_the_examples_of_docstrings_run():
-    for module in (dae, solver):
-        assert doctest.testmod(module).failed == 0 < doctest.testmod(module).attempted
