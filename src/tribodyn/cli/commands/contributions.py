@@ -27,7 +27,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="where runs are kept (default: contributions-CASE)"
     )
-    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw_shares no figures")
+    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw no figures")
     parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 

@@ -18,7 +18,7 @@ from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown, a
 
 #: The conclusion that matters most, then in the order of the paper.
 CLAIMS: Final[tuple[Claim, ...]] = (
-    *damping.CLAIMS,
+    *damping.UNDAMPED_CLAIMS,
     *damping.CLAIMS,
     *method.CLAIMS,
     *journal.CLAIMS,
