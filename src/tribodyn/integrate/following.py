@@ -111,6 +111,11 @@ BLOCK: Final = 8_000_000
 Rows = tuple[FloatArray, FloatArray]  #: Times [s], shape (n,), and rows, shape (n, n_observed).
 
 
+def most_rows(most: int, n_kept: int, n_watched: int) -> int:
+    """Return how many of ``most`` rows of ``n_kept`` numbers a stretch keeps, with peaks of ``n_watched``."""
+    return max(min(most, ROOM // (8 * max(n_kept, 1)) // 2), 2 * n_watched + 1)
+
+
 class Followed:
     """Rows of accepted steps of one integration.
 
@@ -134,10 +139,10 @@ class Followed:
         self.times, self.rows = np.empty(size), np.empty((size, n_observed))
         places = np.arange(n_observed) if kept is None else kept
         self._kept, self._n_kept = kept, places.size
-        most, room = self.following.most, ROOM // (8 * max(self._n_kept, 1))
-        self._most = max(min(most, room // 2), 2 * len(self.following.watched) + 1)
-        self._full = min(max(room, 2 * self._most), _UNTHINNED * most)
-        self._watched = [np.searchsorted(places, watched) for watched in self.following.watched]
+        most, watched = self.following.most, self.following.watched
+        self._most = most_rows(most, self._n_kept, len(watched))
+        self._full = min(max(ROOM // (8 * max(self._n_kept, 1)), 2 * self._most), _UNTHINNED * most)
+        self._watched = [np.searchsorted(places, one) for one in watched]
         self._stretches: dict[int, _Stretch] = {}
         self._spare: list[FloatArray] = []
 

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from tribodyn.integrate.following import most_rows
 from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.kernels.mechanism.data import N_STATES
 from tribodyn.mechanism.assembly.clearance_surfaces import grid_of
@@ -35,7 +36,9 @@ def workload(case: MechanismCase) -> Workload:
     steps = _STEPS[0] + cycles * (_STEPS[1] + _STEPS[2] * len(real) ** 0.25)
     steps *= (case.solver.rtol / 1.0e-5) ** _TOLERANCE_POWER
     windows = max(1.0, duration / (case.period or duration))
-    compiled = case.solver.name == "mebdf"
+    watched = len(case.joints) + len(real) + len(films) + 2 * len(case.drives)
+    quantities = layout_of(case).size
+    rows = most_rows(case.run.step_rows, quantities, watched) if case.run.step_rows else 0
     return Workload(
         steps=steps,
         states=float(N_STATES * len(case.bodies)),
@@ -46,11 +49,11 @@ def workload(case: MechanismCase) -> Workload:
         mapped=sum(float(film.grid.theta * (film.grid.z + 1)) for film in films),
         fields=(frames(case) + 1.0) * min(2.0, windows) if real else 0.0,
         samples=duration / case.output_interval,
-        followed=min(case.run.step_rows * windows, steps) if real else 0.0,
-        quantities=float(layout_of(case).size),
+        followed=min(rows * windows, steps) if real else 0.0,
+        quantities=float(quantities),
         runs=_runs(case, real),
-        own_matrix=compiled,
-        compiled=compiled,
+        own_matrix=case.solver.name == "mebdf",
+        solver=case.solver.name,
         keys=_keys(case, real),
     )
 

@@ -39,7 +39,7 @@ class Workload:
     runs: float = 1.0  #: How often the run is made: once, or for each simulated cycle of a wear campaign.
     #: Whether the equations come with a sparse matrix that the solver of the case uses.
     own_matrix: bool = True
-    compiled: bool = True  #: Whether the solver of the case runs in compiled code.
+    solver: str = "mebdf"  #: Of the case: only this one runs in compiled code.
     keys: Keys = field(default_factory=Keys)  #: What to change.
 
 

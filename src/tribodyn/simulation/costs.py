@@ -57,6 +57,7 @@ _EVALUATIONS: Final = Coefficient(
     3.5, "1", "evaluations of a step: two of the rates, a sixth of a Jacobian, path integrals"
 )
 _PYTHON_STEP: Final = Coefficient(5.0e-4, "s", "step of an integrator in Python, additional")
+_LONG_STEPS: Final = Coefficient(0.3, "1", "step: steps of `radau` instead, which are longer")
 _DENSE_CUBED: Final = Coefficient(1.0e-10, "s", "cube of the number of states in a step with full matrices")
 _SAMPLE: Final = Coefficient(2.0e-6, "s", "sample")
 _SAMPLE_NUMBER: Final = Coefficient(7.0e-8, "s", "number of a sample, saved")
@@ -71,7 +72,7 @@ COEFFICIENTS: Final[dict[str, Coefficient]] = {
     **{"m_c": _CELL, "m_w": _BAND, "m_s": _ASSEMBLY, "m_d": _DENSE},
     **{"t_0": _START, "t_j": _PART, "t_x": _START_STATE, "t_3": _STATES_CUBED},
     **{"t_1": _STEP, "t_s": _STATE, "t_n": _EVALUATION, "e": _EVALUATIONS},
-    **{"t_p": _PYTHON_STEP, "t_d": _DENSE_CUBED, "t_r": _SAMPLE, "t_q": _SAMPLE_NUMBER},
+    **{"t_p": _PYTHON_STEP, "t_d": _DENSE_CUBED, "k": _LONG_STEPS, "t_r": _SAMPLE, "t_q": _SAMPLE_NUMBER},
     **{"t_f": _SAVED_NODE, "t_c": _FILM_CELL, "t_w": _FILM_ENTRY, "e_0": _FILM_START},
 }
 
@@ -141,11 +142,12 @@ def _seconds(work: Workload) -> list[Part]:
     keys, film = work.keys, work.cells * (_FILM_CELL + _FILM_ENTRY * work.band**2)
     sample = _SAMPLE + work.quantities * _SAMPLE_NUMBER + work.nodes * _EVALUATION + film
     step = _STEP + work.states * _STATE + _EVALUATIONS * (work.nodes * _EVALUATION + film)
-    step += 0.0 if work.compiled else _PYTHON_STEP + work.states**3 * _DENSE_CUBED
+    step += 0.0 if work.solver == "mebdf" else _PYTHON_STEP + work.states**3 * _DENSE_CUBED
+    steps = work.steps * (_LONG_STEPS if work.solver == "radau" else 1.0)
     length = keys.length if work.runs == 1.0 else keys.cycles
     saved = (work.nodes + work.mapped) * work.fields * _SAVED_NODE
     return [
-        Part(work.runs * work.steps * step, length),
+        Part(work.runs * steps * step, length),
         Part(work.runs * work.samples * sample, keys.samples),
         Part(work.runs * work.followed * sample, keys.followed),
         Part(work.runs * saved, keys.nodes),

@@ -40,7 +40,7 @@ def workload(case: VsvCase) -> Workload:
         breaks=windows,
         runs=_runs(case),
         own_matrix=False,
-        compiled=case.solver.name == "mebdf",
+        solver=case.solver.name,
         keys=Keys(length=length, followed="run.impact_rows"),
     )
 
