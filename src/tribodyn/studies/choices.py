@@ -21,6 +21,11 @@ from tribodyn.studies.tolerances import Tolerance
 _DRAWN: Final = 2**15  #: Samples over which a probability is counted.
 _MOST_TRIED: Final = 20_000  #: Choices of steps that are tried.
 _MISSED: Final = 0.3  #: Largest part of a number's spread that its quadratic may miss at points left out.
+#: Methods in their order with their options: shares of samples have no derivatives on a small scale.
+_SEARCHES: Final = {
+    "COBYLA": {"rhobeg": 0.5, "tol": 1e-3},
+    "SLSQP": {"eps": 3e-2, "maxiter": 20, "ftol": 1e-6},
+}
 _SAME: Final = 1e-12  #: Relative difference below which costs are equal.
 
 
@@ -168,7 +173,7 @@ class QuadraticModel:
                 add((*places[:k], places[k] + 1, *places[k + 1 :]))
 
     def _on_curves(self, probability: float) -> Choice:
-        """Minimise the cost over the logarithms of widths, by sequential quadratic programming."""
+        """Minimise the cost over the logarithms of widths, by linear and then by quadratic models of it."""
         minimize: Any = importlib.import_module("scipy.optimize").minimize
         tolerances = self._scattering.tolerances
         finest, widest = np.log([one.curve[2:] for one in tolerances if one.curve is not None]).T
@@ -189,14 +194,16 @@ class QuadraticModel:
 
         if reserve(finest) < 0.0:
             return _never(choice(finest))
-        found: FloatArray = minimize(
-            lambda x: cost(x) / cost(widest),
-            finest,
-            method="SLSQP",
-            bounds=list(zip(finest.tolist(), widest.tolist(), strict=True)),
-            constraints={"type": "ineq", "fun": reserve},
-            options={"eps": 1e-2, "maxiter": 200, "ftol": 1e-9},
-        ).x
+        found: FloatArray = finest
+        for method, options in _SEARCHES.items():
+            found = minimize(
+                lambda x: cost(x) / cost(widest),
+                found,
+                method=method,
+                bounds=list(zip(finest.tolist(), widest.tolist(), strict=True)),
+                constraints={"type": "ineq", "fun": reserve},
+                options=options,
+            ).x
         return choice(_last_within(reserve, finest, found))
 
 
