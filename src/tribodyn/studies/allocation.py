@@ -80,12 +80,8 @@ def allocate(
         File of the tolerances, see :mod:`tribodyn.studies.tolerances`.
     samples
         Fresh simulations that confirm the choice.
-    directory
-        Where the runs are kept; what is there already is not computed again.
-    workers
-        Processes on this machine, by default one for each processor; 0 computes in this process.
-    watcher
-        Who hears of its progress, and may end it.
+    directory, workers, watcher
+        Where runs are kept and on how many processes, as for :func:`sweep`; who is told and may stop them.
 
     Returns
     -------

@@ -113,12 +113,8 @@ def builds(
         The most that numbers of a build may be, by their names.
     seed
         Of inputs and draws.
-    directory
-        Where the runs are kept; what is there already is not computed again.
-    workers
-        Processes on this machine, by default one for each processor; 0 computes in this process.
-    watcher
-        Who hears of its progress, and may end it.
+    directory, workers, watcher
+        Where runs are kept and on how many processes, as for :func:`sweep`; who is told and may stop them.
 
     Returns
     -------
