@@ -112,7 +112,7 @@ Rows = tuple[FloatArray, FloatArray]  #: Times [s], shape (n,), and rows, shape 
 
 
 def most_rows(most: int, n_kept: int, n_watched: int) -> int:
-    """Return how many of ``most`` rows of ``n_kept`` numbers a stretch keeps, with peaks of ``n_watched``."""
+    """Return the rows of ``n_kept`` numbers that a stretch keeps of ``most``, with ``n_watched`` peaks."""
     return max(min(most, ROOM // (8 * max(n_kept, 1)) // 2), 2 * n_watched + 1)
 
 
