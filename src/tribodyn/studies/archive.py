@@ -23,6 +23,7 @@ from tribodyn.core.files import read_regular
 from tribodyn.core.platforms import version
 from tribodyn.core.quoting import brief
 from tribodyn.mechanisms.results import known
+from tribodyn.mechanisms.self_checks import YIELDED
 from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.dataset import SWEEP, assembled, variable
 from tribodyn.results.schema import is_summary
@@ -142,6 +143,22 @@ def refuse_failures(dataset: xr.Dataset, words: str = "a run failed") -> None:
             raise TribodynError(f"{words}: {text}")
 
 
+_NAMED: Final = 5
+
+
+def remarks(plan: SweepPlan, summaries: Mapping[str, Summary]) -> list[str]:
+    """Return what the points of a plan have not in common: some have elastic bodies as they needed them."""
+    notes = {point.label: summaries.get(point.name, {}).get("notes") for point in plan.points}
+    softer = [label for label, of_one in notes.items() if isinstance(of_one, list) and YIELDED in of_one]
+    if len(softer) in (0, len(notes)):
+        return []
+    named = "; ".join(softer[:_NAMED]) + ("; ..." if len(softer) > _NAMED else "")
+    return [
+        f"{len(softer)} of {len(notes)} points have elastic bodies, since asperities alone do not carry "
+        f'them; bulk = "conformal" gives them to all: {named}'
+    ]
+
+
 def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:
     """Return the dataset of a sweep.
 
@@ -175,7 +192,7 @@ def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:
     words = {
         name: laid_out(values, object, {"long_name": POINT_TEXTS[name]}) for name, values in texts.items()
     }
-    return assembled(numbers | words, _coordinates(plan), _attributes(plan, rows))
+    return assembled(numbers | words, _coordinates(plan), _attributes(plan, rows, remarks(plan, summaries)))
 
 
 def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
@@ -224,7 +241,7 @@ def _about(key: Key) -> dict[str, Any]:
     return about
 
 
-def _attributes(plan: SweepPlan, rows: Sequence[Summary]) -> dict[str, Any]:
+def _attributes(plan: SweepPlan, rows: Sequence[Summary], notes: Sequence[str]) -> dict[str, Any]:
     sampling: dict[str, Any] = {}
     if plan.sampled:
         s = plan.sampling
@@ -238,5 +255,6 @@ def _attributes(plan: SweepPlan, rows: Sequence[Summary]) -> dict[str, Any]:
         "varied": json.dumps([key.path for axis in plan.axes for key in axis.columns]),
         "points_in_all": len(rows),
         "points_failed": sum(bool(row.get("failure")) for row in rows),
+        "notes": json.dumps(notes),
         **sampling,
     }

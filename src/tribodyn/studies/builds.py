@@ -25,6 +25,7 @@ from tribodyn.mechanisms.output_keys import Instant
 from tribodyn.results.summary import Summary
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
+from tribodyn.studies.archive import remarks
 from tribodyn.studies.choices import quadratic
 from tribodyn.studies.plan import POINT, Axis, plan_of, varied_key
 from tribodyn.studies.sampling import SAMPLERS
@@ -331,6 +332,8 @@ class BuildRuns:
         plan, summaries = plan_of(case, (axis,)), dict[str, Summary]()
         place = None if self._directory is None else self._directory / name
         compute_missing(plan, place, means, watcher, summaries)
+        for note in remarks(plan, summaries):
+            watcher.note(note)
         found = [summaries.get(point.name, {"failure": "it was not computed"}) for point in plan.points]
         failure = next((one["failure"] for one in found if one.get("failure")), None)
         if failure is not None:

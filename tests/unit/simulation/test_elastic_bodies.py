@@ -1,5 +1,6 @@
 """Runs that begin again with elastic bodies where asperities alone do not carry them."""
 
+import json
 from itertools import pairwise
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import numpy as np
 import tribodyn as td
 from tribodyn.cases.case import Case
 from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.studies import sweep
 
 
 def smooth(**more: object) -> Case:
@@ -50,3 +52,15 @@ def test_a_load_that_bodies_do_not_carry_either_leaves_the_run_that_asperities_c
     found = td.simulate(load_case("vsv").replace({"loads.air_moment": "2000 N m"}))
     assert "closer than the contact law reaches" in found.attrs["failure"]
     assert "Asperities alone" not in found.attrs["notes"]
+
+
+def test_a_sweep_says_which_of_its_points_have_elastic_bodies() -> None:
+    surfaces = {f"surfaces.{body}.roughness": "0.1 um" for body in ("trunnion", "bushing")}
+    case = load_case("journal-dry").replace({**surfaces, "run.duration": "1 ms"})
+    vary = {"loads.force_x": ["1 N", "10 kN"]}
+    found = sweep(case, vary, workers=0)
+    (note,) = json.loads(found.attrs["notes"])
+    assert note.startswith("1 of 2 points have elastic bodies")
+    assert note.endswith("loads.force_x = 10000 N")
+    alike = sweep(case.replace({"joint.bulk": "conformal"}), vary, workers=0)
+    assert json.loads(alike.attrs["notes"]) == []

@@ -287,7 +287,9 @@ def _tell(path: Path, shown: Sequence[str], console: Console) -> None:
 
 
 def _warn(dataset: xr.Dataset) -> None:
-    """Report the number of points with warnings of their own, with the words of the first."""
+    """Report what points do not share, and how many have warnings, with the words of the first."""
+    for note in json.loads(dataset.attrs["notes"]):
+        complain(note)
     texts = [text for text in dataset["warnings"].values.ravel().tolist() if text]
     if texts:
         count = f"{len(texts)} of {dataset.attrs['points_in_all']} points"

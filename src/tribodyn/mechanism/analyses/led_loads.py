@@ -67,6 +67,7 @@ class LedLoads(JointLoads):
         self._direction = 1.0
         self._centred: LinearEquations | None = None
         self._walked: Callable[[FloatArray], FloatArray] | None = None
+        self._led: FloatArray | None = None
         for system, rank in ((self.ideal, ideal_rank), (self.real, 6 * self.n - assembly.freedoms)):
             system.set_rank(rank)
             system.known_rank = rank
@@ -91,24 +92,31 @@ class LedLoads(JointLoads):
         self.state[:], self._direction, self.largest = state, direction, 0.0
         self._centred, self.waits = centred, centred is not None
 
-    def walk(self, walked: Callable[[FloatArray], FloatArray] | None, pace: float) -> None:
+    def walk(
+        self, walked: Callable[[FloatArray], FloatArray] | None, pace: float, led: FloatArray | None = None
+    ) -> None:
         """Let shafts slip by their ways since the last position, too: ``pace`` positions in a second.
 
-        ``walked`` returns these ways of all bodies at a state, as their velocities over the pace, (n, 6).
+        ``walked`` returns these ways of all bodies at a state, as their velocities over the pace, (n, 6);
+        ``led``: the velocities of the place that ways are counted from, (n, 6); those of the place itself
+        without it.
         """
-        self._walked, self.pace = walked, 0.0 if walked is None else pace
+        self._walked, self.pace, self._led = walked, 0.0 if walked is None else pace, led
 
     def walking(self) -> FloatArray:
         """Return the state with the velocities by which shafts slip, shape (13 n,)."""
         state = self.state.copy()
-        if self._walked is not None and self.slipping is self.velocity:
+        if self._walked is not None:
+            if self._led is not None:
+                state.reshape(-1, N_STATES)[:, VELOCITY:] = self._led
             state.reshape(-1, N_STATES)[:, VELOCITY:] += self.pace * self._walked(state)
         return state
 
     def _evaluated(self) -> FloatArray:
         kept = self.slipping
-        if self._walked is not None and kept is self.velocity:
-            self.slipping = self.velocity + self.pace * self._walked(self.state)
+        if self._walked is not None:
+            passing = kept if self._led is None or kept is not self.velocity else self._led
+            self.slipping = passing + self.pace * self._walked(self.state)
         found = super()._evaluated()
         self.slipping = kept
         return found

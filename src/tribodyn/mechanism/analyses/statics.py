@@ -264,7 +264,7 @@ class Equilibria:
     def _walk(self, number: int, ideal: FloatArray, *, walks: bool) -> None:
         """Let friction follow the displacements since the last position, too, or the ideal motion alone."""
         passed = abs(float(np.diff(self._path.of_drives[number - 1 : number + 1]).sum()))
-        if not (walks and self._ways and passed > 0.0):
+        if not (walks and self._ways and passed > 0.0 and math.isfinite(self.slip)):
             self._loads.walk(None, 0.0)
             return
         # Two steps back: the rate is then exact to the second order.
@@ -276,7 +276,8 @@ class Equilibria:
             ways[:, 3:] = into_bodies.apply(ways[:, 3:])
             return ways
 
-        self._loads.walk(walked, (0.5 + 0.5 * len(self._ways)) / passed)
+        led = None if self.middle is not None else float(self._path.forward[number]) * ideal[:, VELOCITY:]
+        self._loads.walk(walked, (0.5 + 0.5 * len(self._ways)) / passed, led)
 
     def _require_balance(self, number: int) -> None:
         """Refuse an equilibrium of the clearances alone, where the mechanism as a whole is pushed away."""

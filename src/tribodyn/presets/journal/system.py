@@ -107,6 +107,7 @@ class JournalSystem(MechanismSystem):
                 "start": self.keys.run.start,
                 MODEL: self.case.to_toml(),
             },
+            failure=part.failure.replace(f"joints.{BEARING}.clearance.bulk", "joint.bulk"),
         )
 
 
