@@ -132,16 +132,16 @@ def loop(seed: int) -> tuple[str, FloatArray]:
     case = swinging(seed)
     if not any(joint.clearance for joint in case.joints.values()):
         return "no clearance", np.empty(0)
-    words, result = limited(case.replace(STATIC), SLOW)
-    slow = width(limited(case.replace(AT_REST), SLOW)[1])
-    slower = width(limited(swinging(seed, SLOWER).replace(AT_REST), SLOW)[1])
+    words, static = limited(case.replace(STATIC), SLOW)
+    if words != _BEST:
+        return f"static: {words}", np.empty(0)
+    slow, slower = (width(limited(one.replace(AT_REST), SLOW)[1]) for one in (case, swinging(seed, SLOWER)))
     if not slow.size or not slower.size:
         return "no slow run", np.empty(0)
     size = np.mean(np.abs(slower))
     if np.mean(np.abs(slow - slower)) > 0.5 * SAME * size:
-        return f"slow runs differ; static: {words}", np.empty(0)
-    static = width(result)
-    return (words, np.abs(static - slower) / size) if static.size else (f"static: {words}", static)
+        return "slow runs differ", np.empty(0)
+    return words, np.abs(width(static) - slower) / size
 
 
 def swinging(seed: int, slow: float = 1.0) -> MechanismCase:
