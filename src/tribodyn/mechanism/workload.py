@@ -52,7 +52,6 @@ def workload(case: MechanismCase) -> Workload:
         followed=min(rows * windows, steps) if real else 0.0,
         quantities=float(quantities),
         runs=_runs(case, real),
-        own_matrix=case.solver.name == "mebdf",
         solver=case.solver.name,
         keys=_keys(case, real),
     )

@@ -37,9 +37,7 @@ class Workload:
     band: float = 0.0
     mapped: float = 0.0  #: Nodes of films in each field kept.
     runs: float = 1.0  #: How often the run is made: once, or for each simulated cycle of a wear campaign.
-    #: Whether the equations come with a sparse matrix that the solver of the case uses.
-    own_matrix: bool = True
-    solver: str = "mebdf"  #: Of the case: only this one runs in compiled code.
+    solver: str = "mebdf"  #: Of the case: only this one runs in compiled code, with sparse matrices.
     keys: Keys = field(default_factory=Keys)  #: What to change.
 
 

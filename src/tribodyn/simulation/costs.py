@@ -127,7 +127,7 @@ def estimated(work: Workload) -> Estimate:
 
 def _memory(work: Workload) -> list[Part]:
     keys = work.keys
-    matrices = _ASSEMBLY if work.own_matrix else _DENSE
+    matrices = _ASSEMBLY if work.solver == "mebdf" else _DENSE
     return [
         Part(work.nodes * (_NODE + _FIELD_NODE * work.fields), keys.nodes),
         Part(work.cells * (_CELL + _BAND * work.band) + work.mapped * _FIELD_NODE * work.fields, keys.cells),

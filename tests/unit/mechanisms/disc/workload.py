@@ -16,7 +16,6 @@ def workload(case: DiscCase) -> Workload:
         samples=201.0,
         followed=0.0,
         quantities=3.0,
-        own_matrix=False,
     )
 
 

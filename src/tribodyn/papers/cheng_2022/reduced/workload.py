@@ -39,7 +39,6 @@ def workload(case: VsvCase) -> Workload:
         quantities=len(OBSERVED),
         breaks=windows,
         runs=_runs(case),
-        own_matrix=False,
         solver=case.solver.name,
         keys=Keys(length=length, followed="run.impact_rows"),
     )
