@@ -147,7 +147,7 @@ _NAMED: Final = 5
 
 
 def remarks(plan: SweepPlan, summaries: Mapping[str, Summary]) -> list[str]:
-    """Return what the points of a plan have not in common: some have elastic bodies as they needed them."""
+    """Return notes on points of a plan where they differ: some have elastic bodies as they needed them."""
     notes = {point.label: summaries.get(point.name, {}).get("notes") for point in plan.points}
     softer = [label for label, of_one in notes.items() if isinstance(of_one, list) and YIELDED in of_one]
     if len(softer) in (0, len(notes)):

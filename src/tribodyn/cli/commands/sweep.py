@@ -287,7 +287,7 @@ def _tell(path: Path, shown: Sequence[str], console: Console) -> None:
 
 
 def _warn(dataset: xr.Dataset) -> None:
-    """Report what points do not share, and how many have warnings, with the words of the first."""
+    """Report notes that points do not share, and how many have warnings, with the words of the first."""
     for note in json.loads(dataset.attrs["notes"]):
         complain(note)
     texts = [text for text in dataset["warnings"].values.ravel().tolist() if text]
