@@ -81,7 +81,7 @@ def allocate(
     samples
         Fresh simulations that confirm the choice.
     directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who is told and may stop them.
+        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------

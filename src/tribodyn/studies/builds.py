@@ -115,7 +115,7 @@ def builds(
     seed
         Of inputs and draws.
     directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who is told and may stop them.
+        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------

@@ -75,7 +75,7 @@ def contributions(
     case
         A case with outputs and joints with clearance, the name of a built-in one, or a file.
     directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who is told and may stop them.
+        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------

@@ -67,7 +67,7 @@ def slopes(
     of
         Names of key results.
     directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who is told and may stop them.
+        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------
