@@ -348,15 +348,14 @@ law
     Of the first leg of an element with a force law.
 """
 
-#: State of the segment [begin, until] whose pieces of tables hold; part of a step in which joints slide, 0
-#: but in ``advance`` [s]; accepted steps until redundant rows are chosen again; energies [J], momentum and
-#: external force with moments about the origin; what has become of a joint, ``INTACT`` or another of the
-#: kinds above, and the number of the coupling that has ``OPENED`` or of the surface. From then on no rate is
-#: a number, which stops every integrator. Trial states may lie beyond a law: it goes on linearly.
+#: State of the segment [begin, until] whose pieces of tables hold; accepted steps until redundant rows are
+#: chosen again; energies [J], momentum and external force with moments about the origin; what has become of a
+#: joint, ``INTACT`` or another of the kinds above, and the number of the coupling that has ``OPENED`` or of
+#: the surface. From then on no rate is a number, which stops every integrator. Trial states may lie beyond a
+#: law: it goes on linearly.
 Course: Final = record_type(
     ("begin", "f8"),
     ("until", "f8"),
-    ("part", "f8"),
     ("wait", "i8"),
     ("times", "f8", (3,)),
     ("kinetic", "f8"),

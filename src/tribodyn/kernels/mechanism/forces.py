@@ -87,7 +87,7 @@ def force(
         beam(coupling, now, mode)
     elif kind == CONTACT:
         _open(coupling, now.pose, data.signals, t, within)
-        _contact(coupling.contact, now, data.contact, memory.contact, mode, 0.5 * memory.now.course.part)
+        _contact(coupling.contact, now, data.contact, memory.contact, mode)
     if coupling.film != NONE:
         scratch, oil = memory.contact.scratch, memory.oil
         film_force(mode, data.films, memory.films, coupling.film, now, scratch, oil)
@@ -110,16 +110,12 @@ def _open(coupling: Record, pose: Record, signals: Signals, t: float, within: fl
 
 
 @inlined
-def _contact(
-    j: int, now: Record, joints: SurfaceData, memory: SurfaceMemory, mode: float, half: float
-) -> None:
-    """Fill the forces of a joint with clearance; it slides for ``half`` [s] before and after a report."""
+def _contact(j: int, now: Record, joints: SurfaceData, memory: SurfaceMemory, mode: float) -> None:
+    """Fill the forces of a joint with clearance."""
     if mode == SLOPES:
         surfaces.wrench_and_jacobian(joints, memory, j, now.pose, now.wrench, now.slope)
     elif mode == REPORTS:
-        surfaces.slide(joints, memory, j, half)
         surfaces.report(joints, memory, j, now.pose)
-        surfaces.slide(joints, memory, j, half)
         for s in range(joints.joints[j], joints.joints[j + 1]):
             report = memory.reports[s]
             surfaces.add_reported(report, now.wrench)

@@ -110,13 +110,22 @@ def _look_after_rows(parts: Parts, now: Now, matrix: FloatArray) -> None:
         course.wait = 1 + (n // SMALL) ** 3
 
 
+@kernel
+def _slide(data: MechanismData, memory: MechanismMemory, h: float) -> None:
+    """Add to the sliding loads what slides in ``h`` [s] as at the last reports."""
+    for k in range(data.parts.couplings.size):
+        if data.parts.couplings[k].force == CONTACT:
+            surfaces.slide(data.contact, memory.contact, data.parts.couplings[k].contact, h)
+
+
 @entry
 def advance(t_a: float, t_b: float, y_b: FloatArray, data: MechanismData, memory: MechanismMemory) -> None:
     """Settle at the end of a part of an accepted step and add to the books."""
-    h = memory.now.course.part = t_b - t_a
+    h = t_b - t_a
+    _slide(data, memory, 0.5 * h)
     settle(data, memory, t_b, y_b)
-    memory.now.course.part = 0.0
     ledger.add_part(data.parts, memory.now, memory.books, t_b)
+    _slide(data, memory, 0.5 * h)
     for k in range(data.parts.couplings.size):
         if data.parts.couplings[k].force == CONTACT:
             note_peaks(data.contact, memory.contact, data.parts.couplings[k].contact, t_b, h)

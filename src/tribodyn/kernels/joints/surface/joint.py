@@ -41,8 +41,7 @@ def _look(data: SurfaceData, memory: SurfaceMemory, s: int, j: int, pose: Record
     """Fill tilt and station of the scratch for surface ``s`` of joint ``j``."""
     surface, scratch = data.surfaces[s], memory.scratch
     opens, station = surface.opens, scratch.station
-    if s == data.joints[j] or data.surfaces[s - 1].tilt != surface.tilt:  # else that of the last surface
-        fill_tilt(surface.tilt, pose.rotation, pose.w, scratch.tilt)
+    fill_tilt(surface.tilt, pose.rotation, pose.w, scratch.tilt)
     fill_station(surface.slides, pose, scratch.tilt, station)
     station.opening = opens[0] * pose.opening[0] + opens[1] * pose.opening[1]
     station.v_opening = opens[0] * pose.v_opening[0] + opens[1] * pose.v_opening[1]

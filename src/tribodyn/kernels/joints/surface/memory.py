@@ -16,7 +16,7 @@ from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
+from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.listed import Listed
 from tribodyn.kernels.joints.surface.pose import Pose
 from tribodyn.kernels.joints.surface.quantities import Peaks, Report
@@ -89,7 +89,6 @@ class SurfaceMemory(NamedTuple):
     #: the first nodes of its surface.
     entry_velocity: FloatArray
     remembering: FloatArray  #: Whether any node of a row has one, shape (n_rows,).
-    uneven: IntArray  #: 1 where gaps of a row differ, shape (n_rows,); else its first ones are at hand.
     sliding_load: FloatArray  #: ∫P_c |s| dt [N/m], shape (n_nodes,).
     #: P_c |s| of the last report [W/m²] at the nodes within reach, each surface from its first node on; of
     #: rings as ``ring_report.first_kept`` says.
@@ -116,27 +115,24 @@ def _block_size(rows: Record) -> int:
 
 def new_memory(data: SurfaceData) -> SurfaceMemory:
     """Return the memory of joints that never touched."""
-    n_nodes, n_surfaces, rows = data.nodes.shape[1], data.surfaces.size, data.rows
-    ends = np.stack([rows["first"], rows["first"] + rows["count"]], axis=1).ravel()
-    widest = np.maximum.reduceat(np.append(data.nodes[GAP], 0.0), ends)[::2]
+    n_nodes, n_surfaces = data.nodes.shape[1], data.surfaces.size
     peaks = np.zeros(n_surfaces, dtype=Peaks)
     peaks["separation_least"] = math.inf
     strains = np.zeros((n_surfaces, N_STRAIN))
     strains[:, SHARE] = 1.0
     return SurfaceMemory(
         entry_velocity=np.zeros(n_nodes),
-        remembering=np.zeros(rows.size),
-        uneven=(widest != rows["least"]).astype(np.int64),
+        remembering=np.zeros(data.rows.size),
         sliding_load=np.zeros(n_nodes),
-        sliding=np.zeros(n_nodes + (WIDTH - 1) * rows.size),
-        reached=np.zeros((rows.size, 2), dtype=np.int64),
+        sliding=np.zeros(n_nodes + (WIDTH - 1) * data.rows.size),
+        reached=np.zeros((data.rows.size, 2), dtype=np.int64),
         touched=np.zeros(n_nodes, dtype=np.int64),
         n_touched=np.zeros(n_surfaces, dtype=np.int64),
         reports=np.zeros(n_surfaces, dtype=Report),
         peaks=peaks,
         strains=strains,
         anchors=np.zeros((data.joints.size - 1, N_ANCHOR)),
-        block=np.zeros(_block_size(rows)),
+        block=np.zeros(_block_size(data.rows)),
         scratch=new_record(Scratch),
     )
 

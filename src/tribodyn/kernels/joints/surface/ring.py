@@ -156,13 +156,12 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
     for k in range(rings_from(surface, r)):
         row, motion = data.rows[r + k], motion_of(block, k)
         whole, angles, nodes, last_node = number_of_groups(row), row.angle, row.first, row.count - WIDTH
-        (first, number), uneven = groups_of(block, k), memory.uneven[r + k]
+        first, number = groups_of(block, k)
         for group in range(first, first + number):
             on = WIDTH * (group if group < whole else group - whole)
             angle, node = angles + on, nodes + min(on, last_node)
             c, s = load(cos, angle), load(sin, angle)
-            gap = load(drawn, nodes + uneven * (node - nodes)) + load(lift, angle)
-            gap = gap + wave(motion.gap, bends, c, s)
+            gap = load(drawn, node) + load(lift, angle) + wave(motion.gap, bends, c, s)
             approach = wave(motion.approach, bends, c, s)
             reference = reference_of(v_min, approach, load(entry_velocity, node))
             position = shifts + scales * gap
