@@ -41,7 +41,7 @@ def append(path: str) -> Callable[[Path], object]:
 
 CHANGES: dict[str, Callable[[Path], object]] = {
     "kernel": append("tribodyn/kernels/lookup.py"),
-    "deep kernel": append("tribodyn/kernels/joints/surface/wrench.py"),
+    "deep kernel": append("tribodyn/kernels/joints/surface/jacobian.py"),
     "table": append("tribodyn/core/remembered.py"),
     "new": lambda folder: (folder / "tribodyn" / "kernels" / "new.py").touch(),
     "gone": lambda folder: (folder / "tribodyn" / "kernels" / "vsv" / "__init__.py").unlink(),

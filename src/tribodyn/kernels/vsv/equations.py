@@ -12,11 +12,11 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_terms, follow
 from tribodyn.kernels.arrays import clear
+from tribodyn.kernels.dense import solve_in_place
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints import collar as thrust
 from tribodyn.kernels.joints.bushing import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
-from tribodyn.kernels.linalg import solve_in_place
 from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import (
     AIR_M,

@@ -15,6 +15,7 @@ from tribodyn.kernels.joints.surface import entry as of_node
 from tribodyn.kernels.joints.surface import point, ring_entry, ring_jacobian, ring_wrench
 from tribodyn.kernels.joints.surface import report as over_surface
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring
+from tribodyn.kernels.joints.surface.jacobian import wrench as surface_wrench
 from tribodyn.kernels.joints.surface.jacobian import wrench_and_derivatives
 from tribodyn.kernels.joints.surface.memory import (
     RATE,
@@ -33,7 +34,6 @@ from tribodyn.kernels.joints.surface.station import (
     pressure_at_origin,
 )
 from tribodyn.kernels.joints.surface.tilt import fill_derivatives, fill_tilt, moment_of
-from tribodyn.kernels.joints.surface.wrench import wrench as surface_wrench
 
 
 @kernel

@@ -15,10 +15,9 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity
 from tribodyn.kernels.joints.surface.data import SurfaceData, table_of
-from tribodyn.kernels.joints.surface.jacobian import clear_sums
+from tribodyn.kernels.joints.surface.jacobian import clear_sums, slip_square
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.tilt import NO_TILT
-from tribodyn.kernels.joints.surface.wrench import slip_square
 from tribodyn.kernels.lookup import stored_energy
 
 Vector = tuple[float, float, float]

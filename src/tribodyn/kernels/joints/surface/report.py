@@ -11,6 +11,7 @@ from tribodyn.kernels.joints.columns import APPROACH, AREA, FRACTION, INTERVAL, 
 from tribodyn.kernels.joints.pressure import fill_pressures, weighted_sum
 from tribodyn.kernels.joints.surface import ring_report
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring, table_of
+from tribodyn.kernels.joints.surface.jacobian import LEAST_SQUARE, add_columns, fill_forces, slip_square
 from tribodyn.kernels.joints.surface.listed import (
     CLIPPED,
     FORCE,
@@ -25,7 +26,6 @@ from tribodyn.kernels.joints.surface.listed import (
 )
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import gather, node_gap, rewind
-from tribodyn.kernels.joints.surface.wrench import LEAST_SQUARE, add_columns, fill_forces, slip_square
 from tribodyn.kernels.lookup import stored_energy
 
 

@@ -24,8 +24,8 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import ALONG, APPROACHING, AROUND, NEARING, groups_of, rings_from
 from tribodyn.kernels.joints.surface.data import COS, GAP, LIFT, SIN, SurfaceData
+from tribodyn.kernels.joints.surface.jacobian import slip_square
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, COLUMNS, SurfaceMemory
-from tribodyn.kernels.joints.surface.wrench import slip_square
 from tribodyn.kernels.lanes import (
     WIDTH,
     above,

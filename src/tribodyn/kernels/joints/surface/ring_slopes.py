@@ -12,6 +12,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import groups_of, rings_from
 from tribodyn.kernels.joints.surface.data import NODE_AREA, SurfaceData
+from tribodyn.kernels.joints.surface.jacobian import slip_square
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, N_SUMS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
     ALONG_UNIT,
@@ -26,7 +27,6 @@ from tribodyn.kernels.joints.surface.ring import (
     STRIDE,
 )
 from tribodyn.kernels.joints.surface.ring_sums import Pressures, no_pressure, with_pressure
-from tribodyn.kernels.joints.surface.wrench import slip_square
 from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals
 
 FIVE: Final = 5 * WIDTH
