@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
     from tribodyn.cases.materials import MATERIALS as materials
+    from tribodyn.mechanism.analyses.stribeck import stribeck
     from tribodyn.mechanism.builder.mechanism_builder import Mechanism
     from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanisms.results import read
-    from tribodyn.presets.journal.stribeck import stribeck
     from tribodyn.simulation import check, simulate
 
 __all__ = [
@@ -40,7 +40,7 @@ _HOME = {
     "materials": "tribodyn.cases.materials:MATERIALS",
     "read": "tribodyn.mechanisms.results:read",
     "simulate": "tribodyn.simulation:simulate",
-    "stribeck": "tribodyn.presets.journal.stribeck:stribeck",
+    "stribeck": "tribodyn.mechanism.analyses.stribeck:stribeck",
 }
 _GIVING_RESULTS = ("read", "simulate")
 

@@ -223,12 +223,6 @@ class FilmKeys(Group):
         )
 
 
-class OptionalFilmKeys(FilmKeys):
-    """The oil film of a case that is dry unless its keys say otherwise."""
-
-    lubricated: bool = switch(False, "whether there is oil in the clearance", SECTION_4)
-
-
 class SurfaceWear(Group):
     """Wear rates of a pair of surfaces, and the scatter of equal parts."""
 

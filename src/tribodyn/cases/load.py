@@ -30,6 +30,12 @@ class BuiltIn:
     origins: Mapping[str, str] = field(default_factory=dict)
 
 
+#: Kinds of cases of earlier versions, and what took their places.
+_GONE: Final = {
+    "journal": "a journal is a mechanism now: `tribodyn new journal-oil` writes one. Of its keys "
+    "joint.clearance is joints.bearing.clearance.radial, film.viscosity joints.bearing.film.viscosity, "
+    "loads.force_x loads.x.force, journal.speed drives.motor.speed"
+}
 _FILE: Final = ".toml"  #: Ending of the name of a case file.
 _MOST_BASES: Final = 8
 _LONGEST_LINE: Final = 200
@@ -145,6 +151,8 @@ def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[typ
         return known.kinds[name], {"case": entries["case"]}
     if isinstance(name, str) and name in known.built_in:
         return known.built_in[name].model, _given(name, known.built_in[name])
+    if name in _GONE:
+        raise InputError(_GONE[str(name)], key="case", source=source)
     or_file = ", or another case file" if known.begun_from else ""
     allowed = f"{', '.join(known.names)}{or_file}{meant(str(name), known.names)}"
     raise InputError(f"given {shown(name)}; allowed: {allowed}", key="case", source=source)

@@ -55,7 +55,7 @@ class RoughCase(Case):
 
     def wear_scatter(self) -> dict[str, tuple[float, float]]:
         """Return the interval of the wear of equal parts, over that at the rate; none where nothing wears."""
-        return {"": wear_scatter(self)} if _WEAR in keys_in(self) else {}
+        return {"": wear_scatter(self)}
 
     def checks(self) -> tuple[Callable[[], object], ...]:
         """Return the checks of the contact law."""

@@ -25,7 +25,7 @@ from tribodyn.core.quoting import as_given, brief, meant
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
 
 #: Packages whose ``descriptor.py`` holds their ``MECHANISM``, by the kind of its cases.
-FOLDERS: Final = {"mechanism": "tribodyn.mechanism", "journal": "tribodyn.presets.journal"}
+FOLDERS: Final = {"mechanism": "tribodyn.mechanism"}
 _GROUP: Final = "tribodyn.mechanisms"
 
 

@@ -276,7 +276,6 @@ class MechanismDescriptor:
     #: The function that returns the shafts in bores of a case by the names of their joints, as
     #: ``module:function``; empty where there are none.
     bearings: str = ""
-    views: str = ""  #: That of the folder with its figures and sections, where it is another one.
 
     def bearings_of(self, case: Case) -> Mapping[str, Bearing]:
         """Return the shafts in bores of a case by the names of their joints."""
@@ -311,25 +310,22 @@ class MechanismDescriptor:
     @property
     def figures(self) -> Mapping[str, Family]:
         """``FIGURES`` of ``figures``: its figures by the names of their files, in reading order."""
-        return cast("Mapping[str, Family]", self._view("figures").FIGURES)
+        return cast("Mapping[str, Family]", self._module("figures").FIGURES)
 
     @property
     def animation(self) -> Animation | None:
         """``ANIMATION`` of ``figures``: how it moves; None where it has none."""
-        return cast("Animation | None", getattr(self._view("figures"), "ANIMATION", None))
+        return cast("Animation | None", getattr(self._module("figures"), "ANIMATION", None))
 
     @property
     def chapters(self) -> Sequence[Chapter]:
         """``CHAPTERS`` of ``sections``: the chapters of its report, in reading order."""
-        return cast("Sequence[Chapter]", self._view("sections").CHAPTERS)
+        return cast("Sequence[Chapter]", self._module("sections").CHAPTERS)
 
     @property
     def overlays(self) -> Sequence[Overlay]:
         """``OVERLAYS`` of ``sections``: what a comparison of several runs shows."""
-        return cast("Sequence[Overlay]", self._view("sections").OVERLAYS)
+        return cast("Sequence[Overlay]", self._module("sections").OVERLAYS)
 
     def _module(self, name: str) -> Any:
         return importlib.import_module(f"{self.folder}.{name}")
-
-    def _view(self, name: str) -> Any:
-        return importlib.import_module(f"{self.views or self.folder}.{name}")

@@ -36,12 +36,11 @@ ROWS_HASH: Final = "rows_sha256"  #: SHA-256 of its rows.
 ASSUMED_WEAR: Final = "assumed_wear"
 #: Least and largest wear of equal joints over that at the rate, by joint and an empty name for all.
 WEAR_SCATTER: Final = ("wear_scatter_least", "wear_scatter_largest")
-MODEL: Final = "model"  #: The model file of the mechanism that a case of another kind stands for.
 NOT_KEPT: Final = "not_kept"  #: Names of variables that the case did not ask for.
 
 #: Attributes of a dataset by name.
 ATTRIBUTES: Final[dict[str, str]] = {
-    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start", MODEL), TEXT),
+    **dict.fromkeys(("kind", "title", "case", "failure", "formulation", "contact_law", "start"), TEXT),
     **dict.fromkeys(("clearance", "assembly_clearance", "joint_length", "cycle_period", "impact_time"), SIZE),
     **dict.fromkeys(("roughness", "friction_coefficient"), NUMBER),
     **dict.fromkeys(("energy_residual", "clearance_energy_residual", "grid_force_error"), OUTCOME),

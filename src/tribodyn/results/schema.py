@@ -18,7 +18,6 @@ from tribodyn.results.dataset import (
     ATTRIBUTES,
     FACTS,
     GAPS,
-    MODEL,
     NUMBER,
     OUTCOME,
     SIZE,
@@ -65,7 +64,7 @@ def check(dataset: xr.Dataset, kinds: Kinds) -> None:
     else:
         known = {**VARIABLES, **_variables_of(dataset, _tables(dataset, "case"), kinds)}
         _check_run(dataset, known)
-        _check_names(dataset, known, _tables(dataset, MODEL, "case"))
+        _check_names(dataset, known, _tables(dataset, "case"))
 
 
 def is_summary(content: object) -> bool:

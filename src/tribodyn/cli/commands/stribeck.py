@@ -9,7 +9,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 HELP = "print the Stribeck curve of a shaft in oil: friction over the speed, and who carries the load"
-EXAMPLE = "tribodyn stribeck journal-oil --set joint.friction_coefficient=0.1 --viscosity '5,10 mPa s'"
+EXAMPLE = "tribodyn stribeck journal-oil --set joints.bearing.clearance.friction_coefficient=0.1"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -24,8 +24,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--speed", metavar="A..B", default="1..1000rad/s", help="range of speeds (default: %(default)s)"
     )
     parser.add_argument("--points", metavar="N", type=int, default=10, help="speeds (default: %(default)s)")
-    parser.add_argument("--joint", metavar="NAME", default="", help="of a mechanism, its joint in oil")
-    parser.add_argument("--load", metavar="FORCE", help="of a mechanism, the load on that joint: 200N")
+    parser.add_argument("--joint", metavar="NAME", default="", help="of several joints in oil, which one")
+    words = "across its axis: 200N (default: the constant forces of a case with one body)"
+    parser.add_argument("--load", metavar="FORCE", help=words)
     parser.add_argument("-o", "--output", metavar="FILE", help="write the curves as NetCDF, too")
 
 

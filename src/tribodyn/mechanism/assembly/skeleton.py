@@ -15,7 +15,6 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.results.dataset import MODEL
 
 #: Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3).
 Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
@@ -26,7 +25,7 @@ _FLAT: Final = 0.2  #: A mechanism thinner than this share of its size is looked
 
 def case_of(dataset: xr.Dataset) -> MechanismCase | None:
     """Return the case of a result; nothing where its text is not (or no longer) one of a mechanism."""
-    return _case_of(str(dataset.attrs.get(MODEL) or dataset.attrs.get("case", "")))
+    return _case_of(str(dataset.attrs.get("case", "")))
 
 
 @lru_cache(maxsize=1)

@@ -1,14 +1,16 @@
 """Figures 8 and 9: the journal of section 4 under a steady load, dry and in oil, with both laws."""
 
+from collections.abc import Mapping
 from typing import Final
 
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.layout import keep
-from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs
+from tribodyn.papers.cheng_2022.runs import LAWS, PaperFigure, Runs, joined
 from tribodyn.views.events import series
 
 _LOOKS: Final[dict[tuple[str, str], tuple[str, style.LineStyle]]] = {
@@ -19,14 +21,41 @@ _LOOKS: Final[dict[tuple[str, str], tuple[str, style.LineStyle]]] = {
 }
 
 
+#: Quantities of the paper before their axes, and what a joint of a mechanism calls them.
+_NAMES: Final = {"e_": "displacement", "F_c": "contact_force", "F_o": "film_force"}
+_BEARING: Final = "bearing"
+
+
+def run_of(runs: Runs, name: str, changes: Mapping[str, object]) -> xr.Dataset:
+    """Return a run of a journal with names of the paper: motion and forces of its bearing, its energies."""
+    run = runs.run(name, {f"joints.{_BEARING}.clearance.bulk": "none", **changes})
+    one = run.sel(joint=_BEARING, drop=True)
+    vectors = {before: of for before, of in _NAMES.items() if of in one}
+    columns = {
+        f"{before}{axis}": one[of].sel(axis=axis, drop=True)
+        for before, of in vectors.items()
+        for axis in "xy"
+    }
+    rates = {f"e_{axis}_dot": one["relative_velocity"].sel(axis=axis, drop=True) for axis in "xy"}
+    energies = {str(key): run[key] for key in run.data_vars if str(key).startswith("energy_")}
+    attributes = {**run.attrs, "clearance": float(one["clearance"])}
+    return xr.Dataset({**columns, **rates, **energies}, attrs=attributes)
+
+
+def over_laws(runs: Runs, name: str) -> xr.Dataset:
+    """Return the runs of a journal with both laws of section 4 along a dimension ``law``."""
+    index = xr.Variable("law", np.array(LAWS), {"units": "1", "long_name": "contact law"})
+    return joined([run_of(runs, name, {"contact.law": law}) for law in LAWS], index)
+
+
 def dry_data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return displacement [m] and contact force [N]; the formulations of the mechanism do not matter here."""
-    return keep(runs.over_laws("journal-dry"), "e_x", "e_y", "F_cx", "F_cy")
+    return keep(over_laws(runs, "journal-dry"), "e_x", "e_y", "F_cx", "F_cy")
 
 
 def oil_data(runs: Runs, formulation: str) -> xr.Dataset:
     """Return displacement [m], force of the film and contact force [N]."""
-    return keep(runs.over_laws("journal-oil"), "e_x", "e_y", "F_ox", "F_oy", "F_cx", "F_cy")
+    return keep(over_laws(runs, "journal-oil"), "e_x", "e_y", "F_ox", "F_oy", "F_cx", "F_cy")
 
 
 def _panel(axes: Axes, dataset: xr.Dataset, name: str, scale: float, heading: str, unit: str) -> None:

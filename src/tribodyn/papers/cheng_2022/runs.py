@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
-from tribodyn.cases.rough import BushingCase
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
@@ -47,7 +46,7 @@ class Runs:
         """Return the result of a built-in case with some keys changed, as a case file writes them."""
         given = load_case(name)
         # The paper has nothing under its asperities: where these end, its runs do.
-        rigid = {"joint.bulk": "none"} if isinstance(given, BushingCase) else {}
+        rigid = {"joint.bulk": "none"} if given.kind() == "vsv" else {}
         case = given.replace({**rigid, **(changes or {}), **self.changes.get(name, {})})
         key = case.to_toml()
         if key not in self._done:
@@ -75,13 +74,6 @@ class Runs:
             changes[f"joints.{joint}.clearance.ideal"] = joint not in real
             changes[f"joints.{joint}.clearance.bulk"] = "none"
         return self.run("vsv-joints", changes)
-
-    def over_laws(self, name: str) -> xr.Dataset:
-        """Return the runs of a journal with both laws of section 4 along a dimension ``law``."""
-        index = xr.Variable("law", np.array(LAWS), {"units": "1", "long_name": "contact law"})
-        whole = joined([self.run(name, {"contact.law": law}) for law in LAWS], index)
-        whole.attrs.pop("contact_law", None)
-        return whole
 
     def over_clearance(self, formulation: str, *names: str) -> xr.Dataset:
         """Return variables over time of the runs with all clearances, along a dimension ``clearance`` [m]."""

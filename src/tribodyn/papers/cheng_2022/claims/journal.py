@@ -9,6 +9,7 @@ import xarray as xr
 from tribodyn.core.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial, listed
 from tribodyn.papers.cheng_2022.claims.bounds import FIRST, REVIEWED, VARIED, above, below
+from tribodyn.papers.cheng_2022.journal import over_laws, run_of
 from tribodyn.papers.cheng_2022.runs import LAWS
 
 LOAD: Final = (200.0, 100.0)  #: Load along X and Y in section 4.1 [N].
@@ -18,11 +19,11 @@ _FALL: Final = (0.9, 0.1)  #: The fall of a force is timed between these shares 
 
 
 def _dry(trial: Trial, law: str) -> xr.Dataset:
-    return trial.runs.over_laws("journal-dry").sel(law=law)
+    return over_laws(trial.runs, "journal-dry").sel(law=law)
 
 
 def _oil(trial: Trial, law: str) -> xr.Dataset:
-    return trial.runs.over_laws("journal-oil").sel(law=law)
+    return over_laws(trial.runs, "journal-oil").sel(law=law)
 
 
 def _size(run: xr.Dataset, name: str) -> FloatArray:
@@ -207,7 +208,8 @@ def _turns(run: xr.Dataset, axis: str) -> int:
 def oil_by_viscosity(trial: Trial) -> Finding:
     """Measure the heat of the film over that of contact damping, with a tenth of the viscosity."""
     shares = []
-    for run in (_oil(trial, "rsdc"), trial.runs.run("journal-oil", {"film.viscosity": "0.001 Pa s"})):
+    thin = run_of(trial.runs, "journal-oil", {"joints.bearing.film.viscosity": "0.001 Pa s"})
+    for run in (_oil(trial, "rsdc"), thin):
         film, contact = (abs(float(run[f"energy_{name}"].values[-1])) for name in ("film", "damping"))
         shares.append(film / contact)
     text = (

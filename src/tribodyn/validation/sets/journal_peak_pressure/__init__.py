@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Final, cast
+from typing import Final
 
 import numpy as np
 from scipy.optimize import root
@@ -11,14 +11,13 @@ from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.lubrication import FilmState, film_state
+from tribodyn.mechanism.analyses.shaft_in_bore import Journal, equilibrium, journal_of
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.equilibrium import Journal, equilibrium
-from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 
 JUDGED_SPEED: Final = 250.0  #: Speed at which the film is judged [rpm].
+_BEARING: Final = "joints.bearing"
 _NULL: Final = "isothermal_peak_computed_kPa"
 
 
@@ -47,18 +46,16 @@ def rig(given: Mapping[str, float], load: float) -> Journal:
     """Return the rig under a load [N]."""
     base = load_case("journal-oil")
     keys: dict[str, object] = {
-        "joint.clearance": from_si(given["clearance"], "um"),
-        "joint.radius": from_si(given["radius"], "mm"),
-        "joint.length": from_si(given["length"], "mm"),
+        f"{_BEARING}.clearance.radial": from_si(given["clearance"], "um"),
+        f"{_BEARING}.clearance.radius": from_si(given["radius"], "mm"),
+        f"{_BEARING}.clearance.length": from_si(given["length"], "mm"),
         "surfaces.trunnion.roughness": f"Ra {from_si(given['roughness_journal'], 'um')}",
         "surfaces.bushing.roughness": f"Ra {from_si(given['roughness_bearing'], 'um')}",
-        "film.viscosity": from_si(given["viscosity"], "mPa s"),
-        "film.boundary": "groove" if given["groove"] else "periodic",
-        "film.grid.theta": int(given["cells"]),
-        "loads.force_x": f"{load} N",
-        "loads.force_y": "0 N",
+        f"{_BEARING}.film.viscosity": from_si(given["viscosity"], "mPa s"),
+        f"{_BEARING}.film.boundary": "groove" if given["groove"] else "periodic",
+        f"{_BEARING}.film.grid.theta": int(given["cells"]),
     }
-    return journal_of(cast(JournalCase, base.replace(keys)))
+    return journal_of(base.replace(keys), load=load)
 
 
 def _peak(given: Mapping[str, float], speed: float, load: float) -> float:
@@ -79,7 +76,7 @@ def _peak(given: Mapping[str, float], speed: float, load: float) -> float:
 
 def _balanced(journal: Journal, speed: float, start: FloatArray, tilt: float) -> FilmState:
     """Return the film where it carries the load with a tilt of the shaft [rad] in the plane of the load."""
-    film, load = journal.film, journal.loads.force
+    film, load = journal.film, journal.force
     assert film is not None
     data, memory = film.data(), film.memory()
 

@@ -2,21 +2,21 @@
 
 import math
 from collections.abc import Mapping
-from typing import Final, cast
+from typing import Final
 
 import numpy as np
 
 from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.analyses.shaft_in_bore import journal_of
+from tribodyn.mechanism.analyses.stribeck import equilibria
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.stribeck import equilibria
-from tribodyn.presets.journal.system import journal_of
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 
 #: Speeds of the measured curves [rpm], falling, so that each equilibrium starts from the one before.
 SPEEDS: Final = np.array([140.0, 130.0, 120.0, 110.0, 100.0, 90.0, 80.0, 70.0, 60.0, 55.0, 50.0, 45.0, 42.0])
+_BEARING: Final = "joints.bearing"
 _SEARCHED: Final = (
     "The inputs were searched for with the band known; 27 of 300 random choices have the shape."
 )
@@ -51,12 +51,12 @@ def curve(given: Mapping[str, float]) -> FloatArray:
     each, cells = given["roughness"] / math.sqrt(2.0), int(given["cells"])
     tip = given["roughness"] / given["tip_ratio"]
     keys: dict[str, object] = {
-        "joint.radius": from_si(given["radius"], "mm"),
-        "joint.length": from_si(given["length"], "mm"),
-        "joint.clearance": from_si(given["clearance"], "um"),
-        "joint.friction_coefficient": given["boundary_friction"],
-        "film.viscosity": from_si(given["viscosity"], "mPa s"),
-        "film.grid.theta": cells,
+        f"{_BEARING}.clearance.radius": from_si(given["radius"], "mm"),
+        f"{_BEARING}.clearance.length": from_si(given["length"], "mm"),
+        f"{_BEARING}.clearance.radial": from_si(given["clearance"], "um"),
+        f"{_BEARING}.clearance.friction_coefficient": given["boundary_friction"],
+        f"{_BEARING}.film.viscosity": from_si(given["viscosity"], "mPa s"),
+        f"{_BEARING}.film.grid.theta": cells,
         "solver.grid.theta": cells,
         "surfaces.trunnion.roughness": from_si(each, "um"),
         "surfaces.bushing.roughness": from_si(each, "um"),
@@ -65,10 +65,9 @@ def curve(given: Mapping[str, float]) -> FloatArray:
         "asperities.density": from_si(given["asperities"] / (tip * given["roughness"]), "1/um^2"),
         "contact.law": "gt",
         "contact.damping_factor": "none",
-        "loads.force_x": f"{given['pressure'] * 2.0 * given['radius'] * given['length']} N",
-        "loads.force_y": "0 N",
     }
-    journal = journal_of(cast(JournalCase, load_case("journal-oil").replace(keys)))
+    load = given["pressure"] * 2.0 * given["radius"] * given["length"]
+    journal = journal_of(load_case("journal-oil").replace(keys), load=load)
     return np.array([point.friction_coefficient for point in equilibria(journal, np.radians(6.0 * SPEEDS))])
 
 

@@ -2,16 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Final, cast
+from typing import Final
 
 import numpy as np
 
 from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.analyses.shaft_in_bore import equilibrium, journal_of
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.equilibrium import equilibrium
-from tribodyn.presets.journal.system import journal_of
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
@@ -46,13 +44,11 @@ def torque_ratio(given: Mapping[str, float], clearance: float) -> float:
         "surfaces.bushing.material": "ptfe",
         "contact.law": "gt",
         "contact.damping_factor": "none",
-        "joint.clearance": from_si(clearance, "um"),
-        "joint.friction_coefficient": given["friction"],
-        "joint.liner.thickness": from_si(given["liner"], "mm"),
-        "loads.force_x": f"{given['load']} N",
-        "loads.force_y": "0 N",
+        "joints.bearing.clearance.radial": from_si(clearance, "um"),
+        "joints.bearing.clearance.friction_coefficient": given["friction"],
+        "joints.bearing.clearance.liner.thickness": from_si(given["liner"], "mm"),
     }
-    journal = journal_of(cast(JournalCase, load_case("journal-dry").replace(keys)))
+    journal = journal_of(load_case("journal-dry").replace(keys), load=given["load"])
     return equilibrium(journal, speed=1.0).friction_coefficient / given["friction"]
 
 

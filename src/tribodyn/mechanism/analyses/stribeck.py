@@ -1,45 +1,40 @@
-"""The Stribeck curve: friction of a loaded journal over its speed, and who carries the load.
+"""The Stribeck curve: friction of a loaded shaft over its speed, and who carries the load.
 
 At low speed asperities carry the load and friction is theirs; at high speed the film does and friction grows
 with speed as its shear does. In between, in mixed lubrication, friction is least.
 """
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Final, cast
+from collections.abc import Iterable, Sequence
+from typing import Final, cast
 
 import numpy as np
 import xarray as xr
 
 from tribodyn.cases.case import Case
-from tribodyn.cases.units import from_si, to_si
+from tribodyn.cases.units import from_si
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
-from tribodyn.mechanism.assembly.parts_by_number import model_of
+from tribodyn.mechanism.analyses.shaft_in_bore import Equilibrium, Journal, equilibrium, journal_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.equilibrium import Equilibrium, Journal, Loads, equilibrium, journal_in
-from tribodyn.presets.journal.system import journal_of
 
 _SPEEDS: Final = np.geomspace(1.0, 1000.0, 31)
 _COLUMNS: Final = {
     "friction_coefficient": ("1", "friction moment over radius and load"),
     "film_share": ("1", "share of the load that the film carries"),
     "contact_share": ("1", "share of the load that asperities carry"),
-    "eccentricity": ("m", "distance of the centre from the axis of the bushing"),
+    "eccentricity": ("m", "distance of the centre from the axis of the bore"),
 }
 
 
 def equilibria(journal: Journal, speeds: Iterable[float]) -> list[Equilibrium]:
-    """Return the static equilibria of a journal over its speed; each starts from the one before.
+    """Return the static equilibria of a shaft over its speed; each starts from the one before.
 
-    ``journal``: the journal, its load and its film; ``speeds``: speeds of rotation [rad/s], in an order in
+    ``journal``: the shaft, its load and its film; ``speeds``: speeds of rotation [rad/s], in an order in
     which neighbours are near. Raises InputError if there is no load, or no equilibrium at one of the speeds.
     """
-    if journal.loads.force == 0.0:
-        raise InputError("a Stribeck curve needs a load", key="loads.force_x")
-    if journal.changes:
-        raise InputError("a Stribeck curve needs loads and speeds that no table changes", key="loads.more")
+    if journal.force == 0.0:
+        raise InputError("a Stribeck curve needs a load", key="load")
     points: list[Equilibrium] = []
     for speed in speeds:
         guess = points[-1].attitude if points else None
@@ -60,16 +55,17 @@ def stribeck(
     Parameters
     ----------
     case
-        A lubricated journal with friction, ``journal-oil`` with a ``joint.friction_coefficient``; or a
-        mechanism with an oil film in a joint that has friction.
+        A mechanism with an oil film in a joint that has friction, such as ``journal-oil`` with
+        ``joints.bearing.clearance.friction_coefficient = 0.1``.
     speeds
         Speeds of rotation [rad/s], neighbours near each other; by default 31 from 1 to 1000.
     viscosity
         Viscosities to draw a curve for, as a case file has them; by default that of the case.
     joint
-        Of a mechanism with several oil films, the joint.
+        Of several with an oil film, the joint.
     load
-        Of a mechanism, the load across the axis of the joint [N], or a text with its unit.
+        Across the axis of the joint [N], or a text with its unit; by default the constant forces of a case
+        with one body.
 
     Returns
     -------
@@ -82,13 +78,20 @@ def stribeck(
     InputError
         The case has no film, no friction or no load, or there is no equilibrium at one of the speeds.
     """
-    film, friction, journal = _shaft(case, joint, load)
+    oiled = case.oiled if isinstance(case, MechanismCase) else []
+    if not oiled:
+        words = "a Stribeck curve needs a shaft in oil: journal-oil, or a joint with a film"
+        raise InputError(words, key="case")
+    if joint not in oiled and (joint or len(oiled) > 1):
+        raise InputError(f"given {as_given(joint)}; joints with a film: {', '.join(oiled)}", key="joint")
+    name = joint or oiled[0]
+    film, friction = f"joints.{name}.film", f"joints.{name}.clearance.friction_coefficient"
     if case.at(friction) == 0.0:
         words = "without friction of the asperities there is no Stribeck curve: give one, such as 0.1"
         raise InputError(words, key=friction)
     places: FloatArray = _SPEEDS if speeds is None else np.array(list(speeds), dtype=np.float64)
     cases = [case.replace({f"{film}.viscosity": value}) for value in viscosity] or [case]
-    curves = [equilibria(journal(one), places) for one in cases]
+    curves = [equilibria(journal_of(one, name, load), places) for one in cases]
     columns = {
         name: (
             ("viscosity", "speed"),
@@ -104,23 +107,3 @@ def stribeck(
     }
     names = [from_si(value, "mPa s") for value in viscosities]
     return xr.Dataset(columns, coordinates, {"title": f"{case.title}: Stribeck curve", "viscosity": names})
-
-
-def _shaft(case: Any, joint: str, load: float | str | None) -> tuple[str, str, Callable[[Any], Journal]]:
-    """Return the keys of film and friction of a shaft in oil, and the function that makes it from a case."""
-    if isinstance(case, JournalCase) and case.film.lubricated:
-        return "film", "joint.friction_coefficient", journal_of
-    oiled = case.oiled if isinstance(case, MechanismCase) else []
-    if not oiled:
-        words = "a Stribeck curve needs a shaft in oil: journal-oil, or a joint with a film"
-        raise InputError(words, key="case")
-    if joint not in oiled and (joint or len(oiled) > 1):
-        raise InputError(f"given {as_given(joint)}; joints with a film: {', '.join(oiled)}", key="joint")
-    if load is None:
-        raise InputError('a Stribeck curve of a mechanism needs a load, such as "200 N"', key="load")
-    name, size = joint or oiled[0], load if isinstance(load, float | int) else to_si(load, "N")
-
-    def made(one: MechanismCase) -> Journal:
-        return journal_in(model_of(one).clearances[name], loads=Loads(size, 0.0))
-
-    return f"joints.{name}.film", f"joints.{name}.clearance.friction_coefficient", made

@@ -1,0 +1,211 @@
+"""Static equilibrium of a shaft in its bore: from load and speed to attitude, and who carries the load.
+
+The axis of the shaft is at rest, so the film has its wedge and no squeeze, the contact no damping, and
+friction slides at ω r_j.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from mebdf.kernels.elementary import portable
+from tribodyn.cases.case import Case
+from tribodyn.cases.units import to_si
+from tribodyn.core.arrays import FloatArray
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import as_given
+from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid
+from tribodyn.joints.bushing import new_memory
+from tribodyn.joints.shapes import Cylinder
+from tribodyn.kernels import dense
+from tribodyn.kernels.film.wrench import film_wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import report, wrench_and_jacobian
+from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_wrench
+from tribodyn.lubrication.oil_film import Film
+from tribodyn.mechanism.assembly.clearance_surfaces import axes_of, clearances_of
+from tribodyn.mechanism.frames import GROUND, frame
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanisms.balance import damped_newton
+
+_START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)  #: Separations over σ tried for the first guess.
+
+
+@dataclass(frozen=True)
+class Journal:
+    """A shaft in a bore under a constant load, in axes of which Z is that of the bore."""
+
+    joint: BushingJoint  #: The bore.
+    #: Force along X and Y [N]; of a shaft that tilts also its moments about X (right-handed) and Y
+    #: (left-handed, as φ_y) [N m].
+    load: tuple[float, ...]
+    film: Film | None = None  #: The oil film; none by default.
+
+    @property
+    def tilts(self) -> bool:
+        """Whether it can tilt in the bore; otherwise it stays parallel to it."""
+        return len(self.load) > 2
+
+    @property
+    def force(self) -> float:
+        """Size of the force [N]."""
+        return float(portable.hypot(*self.load[:2]))
+
+    @property
+    def direction(self) -> FloatArray:
+        """Unit vector along the force, shape (2,); along X where there is none."""
+        return np.array(self.load[:2]) / self.force if self.force else np.array([1.0, 0.0])
+
+
+def journal_of(case: Case, joint: str = "", load: float | str | None = None) -> Journal:
+    """Return the shaft of a joint of a mechanism in its bore, at the temperatures of the run.
+
+    ``joint``: the joint; by default the one with an oil film, or the only one that is a shaft in a bore; its
+    end faces are left out. ``load``: across its axis, along X [N], or a text with its unit; by default the
+    constant forces of a case with one body. Raises InputError if there is no such joint, or no such load.
+    """
+    real = clearances_of(case) if isinstance(case, MechanismCase) else {}
+    bores = {name: one for name, one in real.items() if isinstance(one.shape, Cylinder)}
+    oiled = [name for name, one in bores.items() if one.film is not None]
+    name = joint or next(iter(oiled if len(oiled) == 1 else bores), "")
+    if name not in bores or not (joint or len(oiled) == 1 or len(bores) == 1):
+        words = f"given {as_given(joint)}; shafts in bores: {', '.join(bores) or 'none'}"
+        raise InputError(words, key="joint")
+    found, shape = bores[name], bores[name].shape
+    assert isinstance(case, MechanismCase)
+    assert isinstance(shape, Cylinder)
+    bushing = BushingJoint(
+        geometry=shape,
+        friction=Friction(found.friction_coefficient, "traction", found.slip_velocity),
+        entry=EntryMemory(found.onset, found.minimum_velocity, found.tensile_clip),
+        grid=Grid(*found.grid),
+        roughness=found.roughness,
+        table=found.table,
+        contact=found.contact,
+        liner=found.liner,
+        form=shape.form,
+        bulk=found.bulk,
+        hardness=found.hardness,
+    )
+    given = load if load is None or isinstance(load, float | int) else to_si(load, "N")
+    return Journal(bushing, _constant(case, name) if given is None else (given, 0.0), found.film)
+
+
+def _constant(case: MechanismCase, name: str) -> tuple[float, float]:
+    """Return the constant force on the only body of a case, across the axis of its joint [N]."""
+    joint, total = case.joints[name], np.zeros(3)
+    socket = joint.clearance.socket if joint.clearance is not None else None
+    sizes = [(load, key, signal) for load in case.loads.values() for key, signal in load.given.items()]
+    alone = len(case.bodies) == 1 and (socket or joint.between[0]) == GROUND and not any(case.gravity)
+    steady = all(
+        load.frame == "ground" and not one.axes and one.signal().kind == "constant" for load, _, one in sizes
+    )
+    if not (sizes and alone and steady and not case.springs):
+        words = 'its load does not follow from the case: give one, such as "200 N"'
+        raise InputError(words, key="load")
+    for load, key, signal in sizes:
+        total += (signal.value or 0.0) * np.array(load.shares(key)[:3])
+    x, y, _ = dense.product(total, frame(*axes_of(case, joint))).tolist()
+    return x, y
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A shaft at rest in its bore, but for its rotation."""
+
+    journal: Journal  #: The shaft.
+    attitude: FloatArray  #: (e_x, e_y, φ_x, φ_y) [m, rad], shape (4,).
+    #: Wrench of contact pressure and friction on the shaft (F_x, F_y, M_x, M_y, M_z) [N, N m], shape (5,).
+    contact: FloatArray
+    film: FloatArray  #: The same of the film.
+
+    @property
+    def eccentricity(self) -> float:
+        """Distance of the centre from the axis of the bore [m]."""
+        return float(portable.hypot(self.attitude[0], self.attitude[1]))
+
+    @property
+    def friction_coefficient(self) -> float:
+        """Moment that resists the rotation over r_j and load [1]."""
+        moment = abs(float(self.contact[4] + self.film[4]))
+        return moment / (self.journal.joint.geometry.radius * self.journal.force)
+
+    @property
+    def contact_share(self) -> float:
+        """Share of the load that contact, with its friction, carries [1]."""
+        return self._share(self.contact)
+
+    @property
+    def film_share(self) -> float:
+        """Share of the load that the film carries [1]."""
+        return self._share(self.film)
+
+    def _share(self, wrench: FloatArray) -> float:
+        return -float(dense.product(wrench[:2], self.journal.direction)) / self.journal.force
+
+
+def equilibrium(journal: Journal, *, speed: float = 0.0, guess: FloatArray | None = None) -> Equilibrium:
+    """Return the static equilibrium of a shaft under its load.
+
+    ``journal``: the shaft and its load; ``speed``: speed of rotation ω about Z, right-handed [rad/s];
+    ``guess``: attitude to try first [m, rad], shape (2,) or (4,). By default, and where it leads nowhere, the
+    shaft is laid against the bore in the direction of the load. Raises InputError if no equilibrium is found:
+    the load is more than contact and film can carry.
+    """
+    statics = _Statics(journal, speed)
+    starts = _starts(journal)
+    if guess is not None:
+        starts.insert(0, np.asarray(guess, dtype=np.float64))
+    half, n = statics.joint.z[-1], 4 if journal.tilts else 2
+    scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])[:n]
+    for start in starts:
+        q = damped_newton(statics, start[:n], scale, 0.5 * journal.joint.roughness)
+        if q is not None and statics.in_range:
+            statics(q)
+            return Equilibrium(journal, statics.state[:4].copy(), statics.contact, statics.oil)
+    words = f"no equilibrium was found: {journal.force:.4g} N may be more than this bearing can carry"
+    raise InputError(words, key="load")
+
+
+class _Statics:
+    """The loads on a shaft whose axis is at rest, over its attitude."""
+
+    def __init__(self, journal: Journal, speed: float) -> None:
+        self.journal, self.speed, self.joint = journal, speed, journal.joint.data()
+        self.film = None if journal.film is None else (journal.film.data(), journal.film.memory())
+        self.memory, self.state = new_memory(self.joint), np.zeros(8)
+        self.contact, self.oil = np.zeros(5), np.zeros(5)
+
+    def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the generalised loads at an attitude (n,), and their derivative (n, n).
+
+        The moments of the joint act on the tilts as M sec²φ, because a point of the axis at height z moves
+        by −z sec²φ dφ.
+        """
+        n, scratch = q.size, self.memory.scratch
+        self.state[:n] = q
+        fill_pose(self.state, self.speed, 0.0, scratch.pose)
+        wrench_and_jacobian(self.joint, self.memory, scratch.pose, scratch.wrench, scratch.jacobian)
+        jacobian, of_film = np.zeros((5, 9)), np.zeros((5, 9))
+        from_wrench(scratch.wrench, self.contact)
+        from_jacobian(scratch.jacobian, jacobian)
+        if self.film is not None:
+            film_wrench_and_jacobian(*self.film, self.state, self.speed, self.oil, of_film)
+        tangent = np.append([0.0, 0.0], portable.tan(self.state[2:4]))
+        sec2, wrench = 1.0 + tangent**2, (self.contact + self.oil)[:4]
+        gradient = sec2[:, None] * (jacobian + of_film)[:4, :4] + np.diag(2.0 * sec2 * tangent * wrench)
+        return np.array(self.journal.load) + (sec2 * wrench)[:n], gradient[:n, :n]
+
+    @property
+    def in_range(self) -> bool:
+        """Whether the contact law reaches the attitude last looked at; Newton may end where it does not."""
+        report(self.joint, self.memory, self.memory.scratch.pose)
+        deepest = self.journal.joint.table.h_first * self.journal.joint.roughness
+        return bool(self.memory.scratch.report.separation_min >= deepest)
+
+
+def _starts(journal: Journal) -> list[FloatArray]:
+    """Lay the shaft against the bore in the direction of the load."""
+    clearance, roughness = journal.joint.geometry.clearance, journal.joint.roughness
+    depths = [max(clearance - depth * roughness, 0.1 * clearance) for depth in _START_DEPTHS]
+    return [np.append(e * journal.direction, [0.0, 0.0]) for e in depths]

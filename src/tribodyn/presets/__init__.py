@@ -1,1 +1,0 @@
-"""Presets: models with a name of their own, written as user-defined mechanisms."""

@@ -1,1 +1,0 @@
-"""A rigid journal in a bushing under stated loads, dry or lubricated."""
