@@ -72,8 +72,8 @@ def test_a_turning_journal_tells_it() -> None:
         "surfaces.trunnion.diffusivity": "5 mm^2/s",
         "surfaces.bushing.conductivity": "0.35 W/(m K)",
         "surfaces.bushing.diffusivity": "0.2 mm^2/s",
-        "journal.speed": "100 rad/s",
-        "joint.friction_coefficient": 0.1,
+        "drives.motor.speed": "100 rad/s",
+        "joints.bearing.clearance.friction_coefficient": 0.1,
         "run.start": "equilibrium",
         "run.duration": "1 ms",
     }
@@ -81,6 +81,6 @@ def test_a_turning_journal_tells_it() -> None:
     flash = float(run["flash_temperature"].values[0])
     # At most μ H V a/k, of spots that carry the hardness, at rest on the better conductor, of some um.
     assert 0.0 < flash < 0.1 * 492e6 * 0.6 * 20e-6 / 18.0
-    slower = td.simulate(td.load_case("journal-dry").replace(known | {"journal.speed": "50 rad/s"}))
+    slower = td.simulate(td.load_case("journal-dry").replace(known | {"drives.motor.speed": "50 rad/s"}))
     # At these speeds heat is conducted as at rest, in proportion to the speed.
     assert slower["flash_temperature"].values[0] == pytest.approx(0.5 * flash, rel=0.1)

@@ -96,7 +96,7 @@ def test_forms_that_cannot_be(changes, words):
 
 def test_the_film_knows_no_form():
     with pytest.raises(InputError, match="oil film"):
-        td.load_case("journal-oil").replace({"joint.form.crown": "1 um"})
+        td.load_case("journal-oil").replace({"joints.bearing.clearance.form.crown": "1 um"})
 
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 15.0))

@@ -2,12 +2,11 @@
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from tests.journals import journal, loads
 
-import tribodyn as td
 from tribodyn.contact import RSDC, SurfacePair, law, tabulate
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
@@ -15,9 +14,9 @@ from tribodyn.integrate import integrate
 from tribodyn.joints import BushingJoint, point_table
 from tribodyn.joints.drop import design_speed, drop, onset_eccentricity, stored_energy
 from tribodyn.kernels.mechanism.data import VELOCITY
+from tribodyn.mechanism.analyses.shaft_in_bore import journal_of
 from tribodyn.mechanism.mechanism_variables import observed
-from tribodyn.presets.journal.results import named_as_printed
-from tribodyn.presets.journal.system import journal_of, system_of
+from tribodyn.mechanism.system import MechanismSystem
 
 MakeJoint = Callable[..., BushingJoint]
 MASS = 0.253
@@ -69,32 +68,31 @@ def test_calibrated_on_the_plate_is_near_on_the_journal(make: MakeJoint, name: s
 
 
 def test_agrees_with_the_journal_as_a_mechanism() -> None:
-    case: Any = td.load_case("journal-dry").replace(
+    case = journal(
+        "journal-dry",
         {
-            **{f"loads.force_{axis}": "0 N" for axis in "xy"},
+            **loads((0.0, 0.0)),
             "contact.damping_factor": "lankarani-nikravesh",
             "contact.minimum_entry_velocity": "1e-6 m/s",
-            "solver.rtol": 1e-7,
-            "solver.atol.position": "1e-13 m",
-            "solver.atol.velocity": "1e-9 m/s",
+            "solver.rtol": 1e-8,
             "solver.grid.theta": 384,
             "solver.grid.z": 2,
-        }
+        },
     )
     joint = journal_of(case).joint
     speed = design_speed(joint, mass=MASS, pressure=50e6)
     made = drop(joint, mass=MASS, speed=speed)
     onset, duration = onset_eccentricity(joint), 60.0 * joint.roughness / speed
-    system = system_of(case.replace({"run.start_x": f"{onset!r} m"}))
-    problem = system.problem(duration)
+    problem = MechanismSystem(case).problem(duration)
     problem.memory.contact.entry_velocity[:] = 0.0
-    problem.y0[VELOCITY] = speed
-    solution = integrate(problem, rtol=1e-7, output_times=np.linspace(0.0, duration, 3001))
-    rows = named_as_printed(observed(solution.rows, 1).couplings, tilts=False)
-    outside = np.flatnonzero((rows["e_x"] <= onset) & (rows["e_x_dot"] < 0.0))[0]
+    problem.y0[0], problem.y0[VELOCITY] = onset, speed
+    solution = integrate(problem, rtol=1e-8, output_times=np.linspace(0.0, duration, 3001))
+    rows = {name: values[:, 0] for name, values in observed(solution.rows, 1).couplings.items()}
+    place, velocity = rows["displacement"][:, 0], rows["relative_velocity"][:, 0]
+    outside = np.flatnonzero((place <= onset) & (velocity < 0.0))[0]
     # Two integrators with steps of their own, at whose ends points enter contact.
-    assert made.restitution == pytest.approx(-rows["e_x_dot"][outside] / speed, abs=2e-4)
-    assert made.peak_force == pytest.approx(np.hypot(rows["F_cx"], rows["F_cy"]).max(), rel=1e-3)
+    assert made.restitution == pytest.approx(-velocity[outside] / speed, abs=2e-4)
+    assert made.peak_force == pytest.approx(np.linalg.norm(rows["contact_force"], axis=1).max(), rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["point-lankarani-nikravesh", "point-johnson"])

@@ -84,7 +84,8 @@ def test_a_bushing_of_rigid_asperities_is_a_bed_of_springs(make_joint, table_1_p
 
 @pytest.mark.parametrize("kind", ["vsv", "journal-dry"])
 def test_the_energy_balance_closes_with_a_liner(kind):
-    case = td.load_case(kind).replace({"joint.liner.thickness": "1 mm"})
+    key = "joint.liner" if kind == "vsv" else "joints.bearing.clearance.liner"
+    case = td.load_case(kind).replace({f"{key}.thickness": "1 mm"})
     run = td.simulate(case.replace({"run.cycles": 0.6}) if kind == "vsv" else case)
     # As without: the tolerance of a run's own check.
     assert abs(run.attrs["energy_residual"]) < 1e-3

@@ -204,46 +204,6 @@ def test_loads_on_the_vane_turn_with_it_and_follow_its_speed() -> None:
     assert float(drag.energy_loads[-1]) == pytest.approx(work, rel=2e-2)
 
 
-JOURNAL = """
-case = "journal"
-journal = { speed = "400 rad/s", tilt = true }
-run = { duration = "10 ms", output_interval = "0.1 ms" }
-[loads]
-force_x = "0.01 N"
-force_y = "0 N"
-[loads.more.own]
-"""
-
-
-def test_an_unbalance_of_a_journal_turns_with_it_and_a_span_bends_it() -> None:
-    text = f'{JOURNAL}frame = "body"\nforce = "0.02 N"\ndirection = [0.6, 0.8, 0]\npoint = "0, 0, 4 mm"\n'
-    result = td.simulate(parse_case(text, "x"))
-    angle = 400.0 * result.time.values
-    for name, wanted in (
-        ("W_x", 0.01 + 0.02 * np.cos(angle + np.arctan2(0.8, 0.6))),
-        ("W_y", 0.02 * np.sin(angle + np.arctan2(0.8, 0.6))),
-    ):
-        np.testing.assert_allclose(result[name], wanted, atol=1e-12)
-    # The moment about X of a force along Y above the centre, and the left-handed one about Y.
-    np.testing.assert_allclose(result.W_mx, -0.004 * result.W_y, atol=1e-14)
-    np.testing.assert_allclose(result.W_my, -0.004 * (result.W_x - 0.01), atol=1e-14)
-
-
-def test_a_force_against_the_velocity_of_a_journal_limits_it() -> None:
-    """F − c v = m dv/dt from rest: v = F/c (1 − exp(−c t/m)), far from the bore."""
-    mass, c = 0.253, 50.0
-    text = f"{JOURNAL}frame = 'motion'\nslip_velocity = '1e-12 m/s'\n"
-    result = td.simulate(
-        parse_case(f'{text}force = {{ velocities = "0, 1 m/s", values = "0, {c} N" }}\n', "x")
-    )
-    assert float(np.hypot(result.e_x, result.e_y).max()) < 5e-6
-    v = 0.01 / c * (1.0 - np.exp(-c * result.time.values / mass))
-    np.testing.assert_allclose(result.e_x_dot, v, atol=1e-4 * v.max())
-    np.testing.assert_allclose(result.W_x, 0.01 - c * result.e_x_dot, atol=1e-9)
-    energy = 0.5 * mass * result.e_x_dot.values**2
-    np.testing.assert_allclose(result.energy_loads, energy, atol=1e-3 * energy.max())
-
-
 PULSE = '{ pulse = "4 N", begin = "5 ms", length = "10 ms" }'
 PASSING = '{ value = "1 N", amplitude = "2 N", order = 3, shaft_speed = "12000 rpm", phase = "90 deg" }'
 
@@ -262,8 +222,6 @@ def passing(t: np.ndarray) -> np.ndarray:
 def test_pulses_and_passing_blades_have_the_same_keys_in_all_models(force: str, wanted: Any) -> None:
     vane = td.simulate(parse_case(f"{VANE}force_x = {force}\n", "x"))
     np.testing.assert_allclose(vane.F_airx, wanted(vane.time.values), atol=4e-6)
-    journal = td.simulate(parse_case(f"{JOURNAL}force_x = {force}\n", "x"))
-    np.testing.assert_allclose(journal.W_x, 0.01 + wanted(journal.time.values), atol=4e-6)
     free = disc(f'[loads.gust]\nbody = "block"\nforce_x = {force}\n').replace({"run.output_interval": "1 ms"})
     times, velocity, rate = slid(td.simulate(free))
     np.testing.assert_allclose(MASS * rate, wanted(times), atol=4e-6)
@@ -307,18 +265,3 @@ REFUSED = {
 def test_what_is_no_load_is_refused_with_what_to_change(text: str) -> None:
     with pytest.raises(InputError, match=REFUSED[text]):
         td.simulate(disc(f'[loads.wrong]\nbody = "disc"\n{text}'))
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ('force_z = "1 N"\n', "give loads across its axis"),
-        ('moment = "1 N m"\nframe = "motion"\n', "a force on the centre of the journal"),
-        ('force = "1 N"\ndirection = [1, 0, 0]\nframe = "motion"\n', "with no direction"),
-        ('force_x = "1 N"\npoint = "1, 0, 0 mm"\n', "acts on its axis"),
-        ('force_x = { positions = "0, 9 mm", values = "0, 1 N" }\n', "follows time or its angle"),
-    ],
-)
-def test_what_is_no_load_of_a_journal_is_refused(text: str, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        parse_case(JOURNAL + text, "x")

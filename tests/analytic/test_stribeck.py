@@ -11,8 +11,8 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film, FilmGrid, Roughness
-from tribodyn.presets.journal.equilibrium import Journal, Loads, equilibrium
-from tribodyn.presets.journal.stribeck import equilibria
+from tribodyn.mechanism.analyses.shaft_in_bore import Journal, equilibrium
+from tribodyn.mechanism.analyses.stribeck import equilibria
 
 FRICTION = 0.1
 SPEEDS = np.geomspace(0.1, 3e4, 45)
@@ -31,7 +31,7 @@ def curve_of(journal: Journal, speeds: FloatArray) -> Curve:
 @pytest.fixture(scope="module")
 def journal(make_joint: Callable[..., BushingJoint]) -> Journal:
     film = Film(0.01, 20e-6, 6e-3, 20e-3, Roughness((0.392e-6, 1.586e-6)), grid=FilmGrid(96, 16))
-    return Journal(False, 0.0, Loads(200.0, 100.0), make_joint(coefficient=FRICTION), film)
+    return Journal(make_joint(coefficient=FRICTION), (200.0, 100.0), film)
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +64,7 @@ def test_slow_friction_is_that_of_the_asperities(curve: Curve) -> None:
 
 def test_fast_friction_is_petroffs(curve: Curve, journal: Journal) -> None:
     assert journal.film is not None
-    size, load = journal.joint.geometry, journal.loads.force
+    size, load = journal.joint.geometry, journal.force
     moment = (
         2.0 * math.pi * journal.film.viscosity * SPEEDS[-1] * size.radius**3 * size.length / size.clearance
     )
@@ -104,4 +104,4 @@ def test_a_mass_conserving_film_has_an_equilibrium(journal: Journal) -> None:
 
 def test_no_load_no_curve(journal: Journal) -> None:
     with pytest.raises(InputError, match="needs a load"):
-        equilibria(replace(journal, loads=Loads(0.0, 0.0)), [1.0])
+        equilibria(replace(journal, load=(0.0, 0.0)), [1.0])

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from tests.analytic.full_system import assert_solved
+from tests.journals import BORE
 
 import tribodyn as td
+from tribodyn.cases.case import with_entries
 from tribodyn.core.signals import constant, sinusoid, spline
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, AIR_Z, BEND_X, BEND_Y, TIME, VANE
@@ -180,52 +182,22 @@ def test_a_load_spread_along_the_span_acts_at_its_centroid() -> None:
     assert case.loads.more["gas"].arm == pytest.approx(0.09, rel=1e-12)  # type: ignore[attr-defined]
 
 
-JOURNAL = """
-case = "journal"
-[loads]
-force_x = "0 N"
-force_y = "0 N"
-"""
-
-
-def journal(text: str, duration: str = "3 ms") -> xr.Dataset:
-    return td.simulate(parse_case(text, "test").replace({"run.duration": duration}))
-
-
-def test_constant_tables_of_a_journal_are_its_constants() -> None:
-    plain = journal('case = "journal"\n[journal]\nspeed = "50 rad/s"\n[joint]\nfriction_coefficient = 0.1\n')
-    table = journal(
-        JOURNAL
-        + '[joint]\nfriction_coefficient = 0.1\n[drive.speed]\ntimes = "0, 1 s"\nvalues = "50, 50 rad/s"\n'
-        '[loads.more.a]\nforce_x = {times = "0, 1, 2 s", values = "200, 200, 200 N"}\n'
-        'force_y = {angles = "-1, 1, 400 rad", values = "100, 100, 100 N"}\n'
-    )
-    for name in ("e_x", "e_y", "F_cx", "M_jf", "energy_loads", "energy_drive", "W_x", "W_y", "omega"):
-        size = float(np.abs(plain[name]).max())
-        np.testing.assert_allclose(table[name], plain[name], rtol=0.0, atol=SAME * size)
-
-
 def test_a_kinked_load_and_a_reversed_journal_close_their_balance() -> None:
-    result = journal(
-        JOURNAL
-        + """
-[joint]
-friction_coefficient = 0.1
-[drive.speed]
-times = "0, 2, 2, 6, 6, 20 ms"
-values = "100, 100, 100, -100, -100, -100 rad/s"
-[loads.more.a]
-force_x = {times = "0, 3, 3, 5, 20 ms", values = "100, 200, 200, 50, 50 N"}
-force_y = {angles = "-2, 0.1, 0.1, 1 rad", values = "10, 50, 50, 40 N"}
-""",
-        "8 ms",
-    )
+    changes = {
+        f"{BORE}.friction_coefficient": 0.1,
+        "drives.motor.speed.times": "0, 2, 2, 6, 6, 20 ms",
+        "drives.motor.speed.values": "100, 100, 100, -100, -100, -100 rad/s",
+        "loads.x.force.times": "0, 3, 3, 5, 20 ms",
+        "loads.x.force.values": "100, 200, 200, 50, 50 N",
+        "loads.y.along": "bearing",
+        "loads.y.force.angles": "-2, 0.1, 0.1, 1 rad",
+        "loads.y.force.values": "10, 50, 50, 40 N",
+        "run.duration": "8 ms",
+    }
+    result = td.simulate(with_entries(td.load_case("journal-dry"), changes, "test"))
     assert not result.attrs["failure"]
     assert result.attrs["energy_residual"] < CLOSED
-    turned = np.trapezoid(result["omega"], result["time"])
-    assert turned == pytest.approx(0.2 + 0.0 - 0.2, abs=1e-9)
-    np.testing.assert_allclose(result["W_x"].values[0], 100.0)
-    power = -result["M_jf"] * result["omega"]
-    assert float(result["energy_drive"][-1]) == pytest.approx(
-        float(np.trapezoid(power, result["time"])), rel=1e-2
-    )
+    assert float(result["joint_angle"][-1, 0]) == pytest.approx(0.2 + 0.0 - 0.2, abs=1e-9)
+    power = -result["reaction_moment"][:, 0, 2] * result["relative_rate"][:, 0, 2]
+    driven = float((result["energy_in"] - result["energy_loads"])[-1])
+    assert driven == pytest.approx(float(np.trapezoid(power, result["time"])), rel=1e-2)
