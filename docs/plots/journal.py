@@ -13,22 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 import tribodyn as td
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
-from tribodyn.presets.journal.case import JournalCase
-from tribodyn.presets.journal.system import system_of
 
 BLUE, VERMILION, GREY = "#0072b2", "#d55e00", "#767676"
 COARSE, FINE = 2e-6, 1e-7  #: Fixed steps of the explicit run [s].
 
 
 def fixed_step(
-    case: JournalCase, step: float, duration: float
+    case: MechanismCase, step: float, duration: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Walk a journal by Euler's explicit method with a fixed step, as no solver of tribodyn does.
 
     Returns times [s] and eccentricities [m].
     """
-    problem = system_of(case).problem(duration)
+    problem = MechanismSystem(case).problem(duration)
     call, data, memory = problem.functions, problem.data, problem.memory
     y, rate = problem.y0.copy(), np.empty(problem.y0.size)
     times, eccentricities = [], []
@@ -51,7 +51,7 @@ def draw_coarse(target: Path) -> None:
     )
     result = td.simulate(case)
     figure, axes = plt.subplots(figsize=(7.6, 3.4), layout="constrained")
-    e = np.hypot(result["e_x"], result["e_y"])
+    e = np.linalg.norm(result["displacement"].sel(joint="bearing"), axis=1)
     for step, colour in ((COARSE, VERMILION), (FINE, GREY)):
         t, coarse = fixed_step(case, step, 4e-3)
         label = f"explicit Euler, {step * 1e6:g} µs"
@@ -65,7 +65,7 @@ def draw_coarse(target: Path) -> None:
 
 def draw_stribeck(target: Path) -> None:
     """Friction coefficient, and shares of the load, over the speed of rotation."""
-    case = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
+    case = td.load_case("journal-oil").replace({"joints.bearing.clearance.friction_coefficient": 0.1})
     curve = td.stribeck(case, np.geomspace(0.5, 3000.0, 60)).isel(viscosity=0)
     figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.6, 5.0), sharex=True, layout="constrained")
     least = int(curve.friction_coefficient.argmin("speed"))

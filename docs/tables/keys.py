@@ -104,8 +104,8 @@ def _cells(key: Key) -> Iterator[str]:
 
 #: Tables by name.
 TABLES: Final[dict[str, Table]] = {
-    **{f"keys {kind}": partial(keys, kind) for kind in ("mechanism", "vsv", "journal")},
-    **{f"assumed {kind}": partial(assumed, kind) for kind in ("vsv", "journal")},
+    **{f"keys {kind}": partial(keys, kind) for kind in ("mechanism", "vsv")},
+    "assumed vsv": partial(assumed, "vsv"),
     "sizes vsv-joints": partial(sizes, "vsv-joints"),
     "elements": elements,
     "joints": joints,

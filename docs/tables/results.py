@@ -12,13 +12,10 @@ from tribodyn.results.variables import COORDINATES, VARIABLES
 
 
 def variables(kind: str) -> Lines:
-    """Give the variables of the results of a kind of cases; of the journal, those that others lack."""
+    """Give the variables of the results of a kind of cases."""
     yield from head("variable", "unit", "dimensions", "meaning")
     listed = {**(VARIABLES if kind == "vsv" else COORDINATES), **MECHANISMS[kind].variables}
-    elsewhere = {*COORDINATES, *MECHANISMS["mechanism"].variables} if kind == "journal" else set()
     for name, one in listed.items():
-        if name in elsewhere:
-            continue
         yield row(f"`{name}`", "name" if one.named else one.units, ", ".join(one.dims), one.long_name)
 
 
@@ -49,5 +46,5 @@ def figures(kind: str) -> Lines:
 TABLES: Final[dict[str, Table]] = {
     f"{table.__name__} {kind}": partial(table, kind)
     for table in (variables, key_results, parts, figures)
-    for kind in ("vsv", "mechanism", *(("journal",) if table in (variables, key_results) else ()))
+    for kind in ("vsv", "mechanism")
 }

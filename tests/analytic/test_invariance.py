@@ -74,13 +74,13 @@ TURNING = {"drives.motor.speed": "30 rad/s", f"{BORE}.friction_coefficient": 0.1
 
 
 def turned(kind: str, angle: float) -> dict[str, FloatArray]:
-    """Return vectors across the bore of a tilting, turning journal; its loads are turned by an angle [rad]."""
+    """Return vectors of a tilting, turning journal, across its bore, with loads turned by an angle [rad]."""
     rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     force, moment = (rotation @ (200.0, 100.0)).tolist(), (rotation @ (0.2, 0.1)).tolist()
     run = simulate(journal(kind, TURNING | loads(force, moment), tilts=True)).isel(joint=0)
     names = ("displacement", "relative_velocity", "contact_force")
     found = {name: run[name].values[:, :2] for name in names}
-    film = run["film_force"] if "film_force" in run else 0.0
+    film = run.get("film_force", 0.0)
     found["friction"] = (run["reaction_force"] - run["contact_force"] - film).values[:, :2]
     found["tilt"] = np.stack([run["tilt_x"].values, run["tilt_y"].values], axis=1)
     return {**found, "moment": run["reaction_moment"].values[:, 2]}

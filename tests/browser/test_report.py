@@ -397,7 +397,7 @@ def test_a_journal_is_followed(opened: Opened, tmp_path: Path) -> None:
     times = playback_times(journal)
     reader.look_at("orbits")
     reader.go_to_frame(times.size // 2)
-    expected = np.interp(times[times.size // 2], journal["time"], journal["e_x"]) * 1e6
+    expected = np.interp(times[times.size // 2], journal["time"], journal["displacement"][:, 0, 0]) * 1e6
     # Positions travel in single precision, 7 digits; between rows the path follows cubics.
     assert reader.plot("orbits", "plot.plotted.now[0][0]") == pytest.approx(expected, rel=1e-3)
     assert _faults(reader) == []

@@ -281,7 +281,7 @@ def _drag(
 @pytest.mark.parametrize(
     ("case", "key", "figure"),
     [
-        (["journal-oil", "--set", "run.duration=0.01 s"], CLEARANCE, "orbits"),
+        (["journal-oil", "--set", "run.duration=0.01 s"], "joints.bearing.clearance.radial", "orbits"),
         (["slider-crank", "--set", "run.duration=6 ms"], "joints.wrist.clearance.radial", "orbits"),
     ],
     ids=["journal", "mechanism"],

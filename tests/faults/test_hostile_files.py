@@ -95,7 +95,7 @@ def declared(path: Path, draw: random.Random) -> None:
         )
         if form is not str:
             file.variables[next(iter(file.variables))][0, 0] = 1
-        file.kind = draw.choice(["sweep", "vsv", "journal"])
+        file.kind = draw.choice(["sweep", "vsv", "mechanism"])
 
 
 def noise(path: Path, draw: random.Random) -> None:

@@ -32,8 +32,6 @@ SOON = 30.0  #: Time within which a process ends after the signal [s], without w
 #: Processor time until which a command is left alone; a run is certainly under way by then [s].
 LONGEST = 8.0
 PARTS, SIGNALS = 10, 20  #: The long campaign: parts, and signals in each.
-#: A run of a journal in oil that would take hours, each step many milliseconds.
-ENDLESS = ["--set", "run.duration=50 s", "--set", "film.grid.theta=360", "--set", "film.grid.z=64"]
 WEAR = ["run.output_interval=50 ms", "wear.specific_wear_rate=1.1e-12 m^2/N", "wear.cycles=400"]
 
 
@@ -49,6 +47,13 @@ def settings(*texts: str) -> list[str]:
     return [word for text in texts for word in ("--set", text)]
 
 
+#: A run of a journal in oil that would take hours, each step many milliseconds.
+ENDLESS = settings(
+    "run.duration=50 s",
+    "run.output_interval=5 ms",
+    "joints.bearing.film.grid.theta=360",
+    "joints.bearing.film.grid.z=64",
+)
 SWEEP = ["sweep", "vsv", "--vary", "joint.clearance=20:38:3 um", *settings("run.duration=0.3 s")]
 COMMANDS = {
     "run": Command(["run", "vsv", "-o", "out"]),

@@ -11,10 +11,7 @@ from tribodyn.mechanisms.catalogue import FOLDERS
 
 SOURCE = Path(__file__).parents[2] / "src" / "tribodyn"
 CATALOGUE = SOURCE / "mechanisms" / "catalogue.py"
-#: The help of a command for films shows a built-in case with one.
-EXAMPLE = SOURCE / "cli" / "commands" / "stribeck.py"
 ORDINARY = ("mechanism",)  #: Names that are words of prose, too: an import is what counts.
-PRESETS = {"mechanism": {"presets"}}  #: Mechanisms whose cases run as those of another one.
 #: The list of what is compiled begins with the laws of elements, which stand there.
 LISTING = SOURCE / "kernels" / "jit.py"
 PUBLIC = SOURCE / "__init__.py"  #: What a user imports from the package says where it is.
@@ -27,8 +24,8 @@ def test_no_mechanism_is_named_outside_its_folders(name: str) -> None:
         str(path.relative_to(SOURCE))
         for path in SOURCE.rglob("*.py")
         if name not in path.relative_to(SOURCE).parts
-        and path not in (CATALOGUE, EXAMPLE, LISTING, PUBLIC)
-        and not {"papers", "validation", *PRESETS.get(name, ())} & set(path.relative_to(SOURCE).parts)
+        and path not in (CATALOGUE, LISTING, PUBLIC)
+        and not {"papers", "validation"} & set(path.relative_to(SOURCE).parts)
         and word.search(path.read_text(encoding="utf-8"))
     ]
     assert found == []

@@ -6,28 +6,58 @@ from functools import cache, partial
 from typing import Final
 
 import numpy as np
+import xarray as xr
 
 import tribodyn as td
-from measures.base import Numbers, key_result, keys
+from measures.base import Numbers, keys
 from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanism.analyses.shaft_in_bore import equilibrium, journal_of
+from tribodyn.papers.cheng_2022.journal import run_of
 from tribodyn.papers.cheng_2022.runs import Runs
 
+SETTLED: Final = (
+    0.01  #: Distance from the static equilibrium, over the clearance, within which it has settled.
+)
 
-def journal(runs: Runs, *, name: str, digits: str, **changes: object) -> str:
-    """Return a key result of the dry journal."""
-    return format(key_result(runs.run("journal-dry", keys(changes)), name), digits)
+
+def residual(runs: Runs, *, digits: str, **changes: object) -> str:
+    """Return the energy residual of the undamped dry journal [%]."""
+    run = run_of(runs, "journal-dry", keys({"contact__law": "ke", **changes}))
+    return format(100.0 * float(run.attrs["energy_residual"]), digits)
 
 
-def balance(runs: Runs, axis: str) -> str:
-    """Return the place of the static equilibrium [µm]."""
-    return f"{1e6 * float(runs.run('journal-dry')[f'e_{axis}_balance']):.4f}"
+@cache
+def balance() -> FloatArray:
+    """Return the place of the static equilibrium [m], shape (2,); oil does not change it."""
+    return equilibrium(journal_of(td.load_case("journal-dry"))).attitude[:2]
+
+
+def _size(run: xr.Dataset, name: str) -> FloatArray:
+    return np.asarray(np.hypot(run[f"{name}x"].values, run[f"{name}y"].values))
+
+
+def _off(run: xr.Dataset) -> FloatArray:
+    """Return the distance from the static equilibrium [m], shape (n_t,)."""
+    return np.hypot(*(run[f"e_{axis}"].values - place for axis, place in zip("xy", balance(), strict=True)))
+
+
+def rebounds(runs: Runs, law: str) -> str:
+    """Return how often the dry journal left contact again altogether."""
+    touching = _size(run_of(runs, "journal-dry", {"contact.law": law}), "F_c") > 0.0
+    return str(np.count_nonzero(touching[:-1] & ~touching[1:]))
+
+
+def settles(runs: Runs) -> str:
+    """Return the time after which the damped dry journal stays near its static equilibrium [ms]."""
+    run = run_of(runs, "journal-dry", {})
+    outside = np.flatnonzero(_off(run) > SETTLED * run.attrs["clearance"])
+    return f"{1e3 * float(run['time'].values[outside[-1] + 1]):.2f}"
 
 
 def turning(runs: Runs) -> FloatArray:
     """Return the eccentricities [µm] at which the undamped dry journal turns back, the first ten."""
     fine = {"contact.law": "ke", "run.output_interval": "1 us", "run.duration": "6 ms"}
-    run = runs.run("journal-dry", fine)
-    e = 1e6 * np.hypot(run["e_x"].values, run["e_y"].values)
+    e = 1e6 * _size(run_of(runs, "journal-dry", fine), "e_")
     top = np.flatnonzero((e[1:-1] > e[:-2]) & (e[1:-1] >= e[2:]) & (e[1:-1] > 15.0)) + 1
     return np.asarray(e[top][:10])
 
@@ -35,26 +65,22 @@ def turning(runs: Runs) -> FloatArray:
 def oil_apart(runs: Runs, floor: str) -> FloatArray:
     """Return the largest distance of the two laws in oil [µm], and the time of first contact [ms]."""
     shared = {"contact.minimum_entry_velocity": floor}
-    rsdc, ke = (runs.run("journal-oil", {"contact.law": name, **shared}) for name in ("rsdc", "ke"))
+    rsdc, ke = (run_of(runs, "journal-oil", {"contact.law": name, **shared}) for name in ("rsdc", "ke"))
     apart = np.hypot(*(rsdc[f"e_{axis}"].values - ke[f"e_{axis}"].values for axis in "xy"))
-    return np.array([1e6 * float(apart.max()), key_result(rsdc, "contact_start_ms")])
+    first = int(np.argmax(_size(rsdc, "F_c") > 0.0))
+    return np.array([1e6 * float(apart.max()), 1e3 * float(rsdc["time"].values[first])])
 
 
 def from_balance(runs: Runs) -> str:
     """Return the distance of the oiled journal from equilibrium at 30 ms, the larger of both laws [nm]."""
-    found = []
-    for name in ("rsdc", "ke"):
-        run = runs.run("journal-oil", {"contact.law": name})
-        at = [float(np.interp(0.03, run["time"].values, run[f"e_{axis}"].values)) for axis in "xy"]
-        off = [place - float(run[f"e_{axis}_balance"]) for place, axis in zip(at, "xy", strict=True)]
-        found.append(1e9 * float(np.hypot(*off)))
-    return f"{max(found):.1g}"
+    oiled = [run_of(runs, "journal-oil", {"contact.law": name}) for name in ("rsdc", "ke")]
+    return f"{1e9 * max(float(np.interp(0.03, run['time'].values, _off(run))) for run in oiled):.1g}"
 
 
 @cache
 def least_friction() -> tuple[float, float, float]:
     """Return speed [rad/s], friction coefficient and contact share [%] where friction is least."""
-    case = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
+    case = td.load_case("journal-oil").replace({"joints.bearing.clearance.friction_coefficient": 0.1})
     curve = td.stribeck(case, np.geomspace(250.0, 450.0, 60), viscosity=["10 mPa s"]).isel(viscosity=0)
     at = int(curve["friction_coefficient"].values.argmin())
     contact = 100.0 * float(curve["contact_share"].values[at])
@@ -63,20 +89,14 @@ def least_friction() -> tuple[float, float, float]:
 
 #: Numbers by name.
 NUMBERS: Final[Numbers] = {
-    "dry equilibrium, x [µm]": partial(balance, axis="x"),
-    "dry equilibrium, y [µm]": partial(balance, axis="y"),
-    "dry journal, rebounds": partial(journal, name="rebounds", digits=".0f"),
-    "dry journal settles [ms]": partial(journal, name="settling_time_ms", digits=".2f"),
-    "undamped journal, rebounds": partial(journal, name="rebounds", digits=".0f", contact__law="ke"),
-    "undamped journal, mebdf residual [%]": partial(
-        journal, name="energy_residual_percent", digits=".2g", contact__law="ke"
-    ),
-    "undamped journal, mebdf residual, rtol 1e-4 [%]": partial(
-        journal, name="energy_residual_percent", digits=".1g", contact__law="ke", solver__rtol=1e-4
-    ),
-    "undamped journal, radau residual [%]": partial(
-        journal, name="energy_residual_percent", digits=".1g", contact__law="ke", solver__name="radau"
-    ),
+    "dry equilibrium, x [µm]": lambda runs: f"{1e6 * balance()[0]:.4f}",
+    "dry equilibrium, y [µm]": lambda runs: f"{1e6 * balance()[1]:.4f}",
+    "dry journal, rebounds": partial(rebounds, law="rsdc"),
+    "dry journal settles [ms]": settles,
+    "undamped journal, rebounds": partial(rebounds, law="ke"),
+    "undamped journal, mebdf residual [%]": partial(residual, digits=".2g"),
+    "undamped journal, mebdf residual, rtol 1e-6 [%]": partial(residual, digits=".1g", solver__rtol=1e-6),
+    "undamped journal, radau residual [%]": partial(residual, digits=".1g", solver__name="radau"),
     "undamped journal turns, least [µm]": lambda runs: f"{turning(runs).min():.3f}",
     "undamped journal turns, most [µm]": lambda runs: f"{turning(runs).max():.3f}",
     "oil, first contact [ms]": lambda runs: f"{oil_apart(runs, '1 mm/s')[1]:.1f}",

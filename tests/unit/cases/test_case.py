@@ -227,7 +227,6 @@ TABLES = {
 def test_a_case_file_has_the_tables_it_is_known_for() -> None:
     wanted = {f"{table}.{name}" for table, names in TABLES.items() for name in names.split()}
     assert wanted <= set(keys_of(type(CASE)))
-    assert "film.viscosity" in keys_of(built_in()["journal-oil"].model)
 
 
 def test_the_kind_of_a_case_cannot_be_replaced() -> None:

@@ -96,11 +96,6 @@ def test_a_material_is_as_warm_as_its_part() -> None:
     assert "surfaces.bushing.hardness of bronze-c93200 is known" in " ".join(far.remarks().warnings)
 
 
-def test_oil_needs_no_dry_friction() -> None:
-    assert td.load_case("journal-oil").replace(LINER).at("joint.friction_coefficient") == 0.0
-    assert td.load_case("journal-dry").replace(LINER).at("joint.friction_coefficient") > 0.0
-
-
 def test_pairs_of_a_mechanism_have_materials_of_their_own() -> None:
     pair = '[pairs.pin.surfaces.bushing]\nmaterial = "bronze-c95400"\n'
     case = parse_case(f"{td.load_case('slider-crank').to_toml()}\n{pair}", "test")

@@ -19,10 +19,10 @@ TABLE = {
 }
 
 
-def refusal(changes: dict[str, object], kind: str = "vsv") -> InputError:
+def refusal(changes: dict[str, object]) -> InputError:
     """Return what is said when the case is read, long before it runs."""
     with pytest.raises(InputError) as caught:
-        td.load_case(kind).replace(changes)
+        td.load_case("vsv").replace(changes)
     return caught.value
 
 
@@ -34,9 +34,8 @@ def test_temperatures_are_read_in_degrees_and_kelvin() -> None:
     assert 'bushing = "300 degC"' in case.to_toml()
 
 
-@pytest.mark.parametrize("kind", ["vsv", "journal-dry"])
-def test_what_is_missing_is_said_once_and_with_its_place(kind: str) -> None:
-    said = str(refusal({"temperature.bushing": "300 degC"}, kind))
+def test_what_is_missing_is_said_once_and_with_its_place() -> None:
+    said = str(refusal({"temperature.bushing": "300 degC"}))
     assert said.startswith("replace: surfaces.bushing.thermal_expansion: needed")
     assert said.count("needed") == 1
 
@@ -65,53 +64,46 @@ def test_a_key_that_is_given_goes_before_the_table() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "kind", "key", "words"),
+    ("changes", "key", "words"),
     [
-        (HOT, "vsv", "surfaces.trunnion.thermal_expansion", "not as warm"),
-        (EXPANSIONS | HOT | {"temperature.fit": "bonded"}, "vsv", "joint.liner.thickness", "thickness"),
-        (TABLE | {"temperature.bushing": "500 degC"}, "vsv", "temperature.properties.young_modulus", "ends"),
-        (TABLE, "journal-dry", "temperature.properties.specific_wear_rate", "no wear"),
+        (HOT, "surfaces.trunnion.thermal_expansion", "not as warm"),
+        (EXPANSIONS | HOT | {"temperature.fit": "bonded"}, "joint.liner.thickness", "thickness"),
+        (TABLE | {"temperature.bushing": "500 degC"}, "temperature.properties.young_modulus", "ends"),
         (
             TABLE | {"temperature.properties.young_modulus": "7, 5 GPa"},
-            "vsv",
             "temperature.properties.young_modulus",
             "2 values for 3",
         ),
         (
             {"temperature.properties.hardness": "7, 5 GPa"},
-            "vsv",
             "temperature.properties.temperatures",
             "one for each",
         ),
         (
             TABLE | {"temperature.properties.temperatures": "20, 400, 200 degC"},
-            "vsv",
             "temperature.properties.temperatures",
             "above the one before",
         ),
-        ({"temperature.bushing": "-300 degC"}, "vsv", "temperature.bushing", "> 0"),
-        (WARMING, "vsv", "surfaces.bushing.thermal_expansion", "not as warm"),
+        ({"temperature.bushing": "-300 degC"}, "temperature.bushing", "> 0"),
+        (WARMING, "surfaces.bushing.thermal_expansion", "not as warm"),
         (
             EXPANSIONS | WARMING | {"temperature.over_time.bushing.times": "1, 2 s"},
-            "vsv",
             "temperature.over_time.bushing",
             "begins at 1 s",
         ),
-        (EXPANSIONS | WARMING | HOT, "vsv", "temperature.over_time.bushing.times", "temperature.bushing"),
+        (EXPANSIONS | WARMING | HOT, "temperature.over_time.bushing.times", "temperature.bushing"),
         (
             EXPANSIONS
             | {
                 "temperature.over_time.casing.times": "0, 1 s",
                 "temperature.over_time.casing.values": "20, 30 degC",
             },
-            "vsv",
             "temperature.over_time.casing",
             "bonded",
         ),
-        (WARMING, "journal-dry", "temperature.over_time.bushing.times", "unknown key"),
     ],
 )
-def test_what_cannot_be(changes: dict[str, object], kind: str, key: str, words: str) -> None:
-    error = refusal(changes, kind)
+def test_what_cannot_be(changes: dict[str, object], key: str, words: str) -> None:
+    error = refusal(changes)
     assert error.key == key
     assert words in str(error)

@@ -60,7 +60,7 @@ def test_assumed_inputs_widen_the_interval(tmp_path, capsys, computed):
     name, value = next(iter(computed.items()))
     line = [f"{name},{value},1,10 %,,bench,\n"]
     _, alone = _judged(tmp_path, capsys, line)
-    _, assumed = _judged(tmp_path, capsys, line, "--assume", "loads.force_x=100..400 N")
+    _, assumed = _judged(tmp_path, capsys, line, "--assume", "loads.x.force=100..400 N")
     narrow, wide = (json.loads(told.out)[0]["numbers"][0]["u_computed"] for told in (alone, assumed))
     assert wide > narrow
 
@@ -103,9 +103,9 @@ def test_a_file_needs_its_case(tmp_path, capsys):
 def curve(tmp_path):
     """The computed path of the shaft [um], times 1.02: its range, and the rms of the difference."""
     run = td.simulate(td.load_case("journal-dry").replace({"run.duration": "2 ms"}))
-    time, values = run["time"].values[::10], 1e6 * run["e_x"].values[::10]
+    time, values = run["time"].values[::10], 1e6 * run["displacement"].values[::10, 0, 0]
     rows = "".join(f"{1e3 * t!r},{1.02 * v!r}\n" for t, v in zip(time.tolist(), values.tolist(), strict=True))
-    (tmp_path / "run.csv").write_text(f"time [ms],e_x [um]\n{rows}", encoding="utf-8")
+    (tmp_path / "run.csv").write_text(f"time [ms],displacement.bearing.x [um]\n{rows}", encoding="utf-8")
     return 1.02 * np.ptp(values), 0.02 * np.sqrt(np.mean(values**2))
 
 
@@ -118,7 +118,7 @@ def test_a_curve_is_judged_by_the_root_mean_square_of_its_difference(tmp_path, c
         (f"{0.99 * missed}", "outside"),
         ("", "reported only"),
     ):
-        line = f"e_x,run.csv,0.1,{band},,bench,because\n"
+        line = f"displacement.bearing.x,run.csv,0.1,{band},,bench,because\n"
         status, told = _judged(tmp_path, capsys, [line], "-o", str(tmp_path))
         assert status == 0
         (row,) = json.loads(told.out)[0]["numbers"]
@@ -130,7 +130,10 @@ def test_a_curve_is_judged_by_the_root_mean_square_of_its_difference(tmp_path, c
 
 @pytest.mark.parametrize(
     ("line", "message"),
-    [("e_x,gone.csv,1,5 %,,,\n", "gone.csv"), ("e_z,run.csv,1,5 %,,,\n", "run.csv has no such column")],
+    [
+        ("displacement.bearing.x,gone.csv,1,5 %,,,\n", "gone.csv"),
+        ("displacement.bearing.y,run.csv,1,5 %,,,\n", "run.csv has no such column"),
+    ],
 )
 @pytest.mark.usefixtures("curve")
 def test_curves_that_are_not_there_are_refused(line, message, tmp_path, capsys):

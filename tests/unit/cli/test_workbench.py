@@ -25,7 +25,7 @@ def asked(address: str):
 
 
 def test_it_says_where_it_is_lets_one_browser_in_and_leaves_nothing_behind():
-    options = ["journal-dry", "--set", "joint.clearance=30 um", "--json", "--workers", "1"]
+    options = ["journal-dry", "--set", "joints.bearing.clearance.radial=30 um", "--json", "--workers", "1"]
     with subprocess.Popen(
         [*COMMAND, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:

@@ -21,7 +21,10 @@ SHORT = {
     "vsv": {"run.duration": "50 ms", "run.output_interval": "1 ms"},
     "journal-oil": {"run.duration": "0.5 ms"},
 }
-SLOW = {"film.grid.theta": 360, "film.grid.z": 64}  #: A film whose steps take many milliseconds.
+SLOW = {
+    "joints.bearing.film.grid.theta": 360,
+    "joints.bearing.film.grid.z": 64,
+}  #: A film whose steps take many milliseconds.
 
 
 def bits(result: xr.Dataset) -> dict[str, bytes]:

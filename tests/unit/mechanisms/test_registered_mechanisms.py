@@ -43,7 +43,7 @@ def test_a_case_imports_the_mechanism_of_its_own_kind_alone() -> None:
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     imported = set(done.stdout.split())
     assert "tribodyn.papers.cheng_2022.reduced.case" in imported
-    assert not imported & {"tribodyn.mechanism", "tribodyn.presets.journal", "scipy.optimize"}
+    assert not imported & {"tribodyn.mechanism", "scipy.optimize"}
 
 
 def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
@@ -51,7 +51,7 @@ def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
     wrong = {
         "absent": "falling_disc.nowhere:MECHANISM",
         "none": "falling_disc.case:DiscCase",
-        "taken": "tribodyn.presets.journal.descriptor:MECHANISM",
+        "taken": "tribodyn.mechanism.descriptor:MECHANISM",
     }
     register(tmp_path, wrong)
     done = subprocess.run(
@@ -64,7 +64,7 @@ def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
     assert done.stdout.split() == list(MECHANISMS)
     assert "No module named 'falling_disc.nowhere'" in done.stderr
     assert "it is no MechanismDescriptor" in done.stderr
-    assert "there is a mechanism 'journal' already" in done.stderr
+    assert "there is a mechanism 'mechanism' already" in done.stderr
 
 
 COMMANDS = [

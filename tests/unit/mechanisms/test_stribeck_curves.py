@@ -5,10 +5,8 @@ import pytest
 import tribodyn as td
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.presets.journal.case import mechanism_of
 
-OIL = td.load_case("journal-oil").replace({"joint.friction_coefficient": 0.1})
+OIL = td.load_case("journal-oil").replace({"joints.bearing.clearance.friction_coefficient": 0.1})
 
 
 def test_a_curve_for_each_viscosity() -> None:
@@ -21,17 +19,20 @@ def test_a_curve_for_each_viscosity() -> None:
     assert shares.values == pytest.approx(1.0, abs=1e-9)
 
 
-def test_a_joint_of_a_mechanism_has_that_of_the_journal_it_is() -> None:
-    journal = OIL.replace({"loads.force_y": "0 N"})
-    mechanism = parse_case(mechanism_of(journal).to_toml(), "model")
-    given = {"joint": "bearing", "load": "200 N", "viscosity": ["5 mPa s"]}
-    found = td.stribeck(mechanism, [30.0], **given)
-    assert found["friction_coefficient"].equals(
-        td.stribeck(journal, [30.0], viscosity=["5 mPa s"])["friction_coefficient"]
-    )
-    for wrong, words in (({"joint": "crank"}, "bearing"), ({"load": None}, "needs a load")):
+def test_a_load_is_given_or_that_of_the_case() -> None:
+    given = OIL.replace({"loads.y.force": "0 N"})
+    wanted = td.stribeck(given, [30.0], viscosity=["5 mPa s"])["friction_coefficient"]
+    both = td.load_case("slider-crank-oil").replace({"joints.big-end.clearance.friction_coefficient": 0.1})
+    for load in (200.0, "200 N"):
+        found = td.stribeck(given, [30.0], joint="bearing", load=load, viscosity=["5 mPa s"])
+        assert found["friction_coefficient"].equals(wanted)
+    for case, wrong, words in (
+        (OIL, {"joint": "crank"}, "bearing"),
+        (both, {}, "give one"),
+        (OIL.replace({"loads.x.frame": "body"}), {}, "give one"),
+    ):
         with pytest.raises(InputError, match=words):
-            td.stribeck(mechanism, [30.0], **{**given, **wrong})
+            td.stribeck(case, [30.0], **wrong)
 
 
 @pytest.mark.parametrize(
@@ -43,7 +44,7 @@ def test_what_has_no_such_curve_is_refused(case: str, words: str) -> None:
 
 
 def test_the_command_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
-    friction = ["--set", "joint.friction_coefficient=0.1"]
+    friction = ["--set", "joints.bearing.clearance.friction_coefficient=0.1"]
     assert main(["stribeck", "journal-oil", *friction, "--viscosity", "5,10 mPa s", "--points", "2"]) == 0
     out = capsys.readouterr().out
     assert out.count("viscosity") == 2

@@ -1,6 +1,5 @@
 """Tables that a run leaves, and tables over a whole turn, in every model."""
 
-import math
 from typing import Any
 
 import numpy as np
@@ -121,22 +120,3 @@ def test_the_vane_mechanism_says_that_it_leaves_its_tables() -> None:
         (text,) = warned(with_entries(vane, changes, "test"))
         assert f"{key} (" in text
         assert f"t = {time} s" in text
-
-
-def test_the_journal_repeats_tables_over_turns() -> None:
-    turn = {"journal.speed": f"{2.0 * math.pi / 2e-3} rad/s", "run.duration": "6 ms"}
-    turned = {"angles": "0, 90, 180, 270, 360 deg", "values": "10, 30, 20, 0, 10 N"}
-    load = {f"loads.more.gas.force_x.{key}": value for key, value in turned.items()}
-    case = with_entries(td.load_case("journal-dry").replace(turn), load, "test")
-    assert not warned(case)
-    assert any("loads.more.gas.force_x repeats every 360 deg of the journal" in text for text in check(case))
-    result = td.simulate(case)
-    found = np.interp([0.5e-3, 2.5e-3, 4.5e-3], result["time"], result["W_x"])
-    np.testing.assert_allclose(found, float(case.at("loads.force_x")) + 30.0, atol=1e-2)
-
-
-def test_the_journal_says_that_it_leaves_the_table_of_its_speed() -> None:
-    spin = {"drive.speed.times": "0, 1 ms", "drive.speed.values": "100, 120 rad/s", "run.duration": "2 ms"}
-    (text,) = warned(with_entries(td.load_case("journal-dry"), spin, "test"))
-    assert "drive.speed.times" in text
-    assert "t = 0.001 s" in text

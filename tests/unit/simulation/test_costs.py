@@ -46,6 +46,7 @@ from tribodyn.cli.main import main
 main(["check", *sys.argv[1:]])
 {PEAK}print(peak)
 """
+FILM = "joints.bearing.film.grid"
 FINEST = {"solver.grid.theta": 4096, "solver.grid.z": 256}
 Changes = Mapping[str, object]
 
@@ -58,12 +59,11 @@ VALIDATED: list[tuple[str, Changes]] = [
     ("vsv", {"wear.cycles": 1_000_000}),
     ("vsv", {"solver.name": "bdf", "run.cycles": 1}),
     ("vsv-engine", {"run.cycles": 5}),
-    ("journal-dry", {"run.duration": "30 ms", "loads.force_x": "20 N", "loads.force_y": "0 N"}),
+    ("journal-dry", {"run.duration": "30 ms", "loads.x.force": "20 N", "loads.y.force": "0 N"}),
     ("journal-dry", {"solver.grid.theta": 1024, "solver.grid.z": 32}),
     ("journal-dry", {"run.output_interval": "0.2 us"}),
-    ("journal-oil", {"film.grid.theta": 128, "film.grid.z": 48}),
-    ("journal-oil", {"journal.speed": "300 rad/s", "run.duration": "0.4 s"}),
-    ("journal-oil", {"journal.tilt": True, "film.grid.z": 24}),
+    ("journal-oil", {f"{FILM}.theta": 128, f"{FILM}.z": 48}),
+    ("journal-oil", {"drives.motor.speed": "300 rad/s", "run.duration": "0.4 s"}),
     ("slider-crank", {"drives.motor.speed.value": "1500 rpm", "run.cycles": 5}),
     ("slider-crank", {"solver.grid.theta": 300, "solver.grid.z": 40}),
     ("slider-crank", {"run.output_interval": "2 us"}),
@@ -137,7 +137,7 @@ def test_memory_and_time_of_other_runs_are_as_estimated() -> None:
         ("journal-dry", FINEST, "memory", "solver.grid.theta or solver.grid.z"),
         (
             "journal-oil",
-            {"film.grid.theta": 4096, "film.grid.z": 1024},
+            {f"{FILM}.theta": 4096, f"{FILM}.z": 1024},
             "memory",
             "film.grid.theta or film.grid.z",
         ),
@@ -152,7 +152,7 @@ def test_memory_and_time_of_other_runs_are_as_estimated() -> None:
         ("vsv", {"wear.cycles": 10**12}, "processor time", "wear.cycles"),
         ("slider-crank", {"wear.cycles": 10**12}, "processor time", "wear.cycles"),
         (
-            "journal-dry",
+            "slider-crank-3d",
             {"run.duration": "1e6 s", "run.output_interval": "1 s"},
             "processor time",
             "run.duration",

@@ -38,7 +38,7 @@ def _model(case: td.studies.sweep.__class__) -> xr.Dataset:
             "level": ("time", amplitude * (2.0 + time), {"units": "N m"}),
         },
         {"time": time},
-        {"kind": "journal", "failure": ""},
+        {"kind": "vsv", "failure": ""},
     )
 
 
@@ -48,7 +48,7 @@ def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def _case():
-    return td.load_case("journal-dry")
+    return td.load_case("vsv")
 
 
 def _file(folder: Path, name: str, seed: int = 0, noise: float = 0.01) -> Path:

@@ -20,7 +20,10 @@ FITS = 100
 NOISE = 0.01  #: Standard deviation over the range of a curve.
 PROCESSOR_TIME = 120.0  #: 60 s on two cores [s].
 
-JOURNAL = {"journal.mass": (0.31, "kg", "0.1..0.6kg"), "joint.clearance": (33e-6, "m", "25..45um")}
+JOURNAL = {
+    "bodies.journal.mass": (0.31, "kg", "0.1..0.6kg"),
+    "joints.bearing.clearance.radial": (33e-6, "m", "25..45um"),
+}
 #: True value, its unit, and range of each key.
 CRANK = {
     "joints.wrist.clearance.radial": (33e-6, "m", "10..60um"),
@@ -57,7 +60,9 @@ def test_intervals_of_a_journal_hold_the_truth_in_90_to_99_of_100_fits() -> None
     times = np.linspace(1e-4, 1.8e-3, 30)
     held = dict.fromkeys(JOURNAL, 0)
     for seed in range(FITS):
-        fit = _calibration(case, JOURNAL, _measured(run, ("e_x", "e_y"), times, seed))
+        fit = _calibration(
+            case, JOURNAL, _measured(run, ("displacement.bearing.x", "displacement.bearing.y"), times, seed)
+        )
         for key in fitted_keys(fit, fit.fitted(1), None):
             low, high = key.interval
             held[key.path] += low <= JOURNAL[key.path][0] <= high

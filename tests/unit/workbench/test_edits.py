@@ -85,7 +85,7 @@ def test_removable_tables_are_those_with_names_and_clearances(origin: Origin) ->
     assert "joints.coupler-pin.clearance" in found
     assert "drives.motor" in found
     assert "surfaces" not in found
-    assert removable(load_case("journal-dry")) == ()
+    assert removable(load_case("vsv")) == ()
 
 
 def test_forms_offer_the_names_of_the_model(origin: Origin) -> None:

@@ -107,4 +107,4 @@ def test_a_figure_leaves_the_runs_that_claims_are_judged_on():
 def test_shared_runs_cannot_be_changed():
     run = Runs().run("journal-dry", {"run.duration": "0.1 ms"})
     with pytest.raises(ValueError, match="read-only"):
-        run["e_x"].values[0] = 1.0
+        run["displacement"].values[0] = 1.0
