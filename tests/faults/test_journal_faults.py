@@ -33,7 +33,7 @@ REFUSED = [
 
 
 def test_a_file_of_an_earlier_version_learns_the_new_keys() -> None:
-    with pytest.raises(InputError, match="joints.bearing.clearance.radial") as caught:
+    with pytest.raises(InputError, match=r"joints\.bearing\.clearance\.radial") as caught:
         parse_case('case = "journal"\njoint.clearance = "30 um"\n', "mine.toml")
     assert caught.value.key == "case"
     assert "tribodyn new journal-oil" in str(caught.value)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Final, Self
 
 from tribodyn.cases import materials
 from tribodyn.cases.beyond import FollowedTable, of_tables
-from tribodyn.cases.case import Case, demand
-from tribodyn.cases.groups import AsperityKeys, Contact, Surfaces
+from tribodyn.cases.case import Case
+from tribodyn.cases.groups import AsperityKeys, Contact, Solver, Surfaces
 from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint
 from tribodyn.cases.keys import Key, Value, keys_of
 from tribodyn.cases.materials import MATERIAL, MATERIALS, SURFACES, Property, taken, warmth, written
@@ -68,14 +68,13 @@ class BushingCase(RoughCase):
     joint: PlainJoint = PlainJoint()
     temperature: Temperature = Temperature()
 
+    if TYPE_CHECKING:  # What its kinds declare.
+        solver: Solver
+
     @classmethod
     def resolve(cls, given: Mapping[str, Value]) -> dict[str, Value]:
         """Return the defaults that follow from materials, the contact law and temperatures."""
-        at_temperature = Temperature.resolve(given)
-        for path in at_temperature.keys() - keys_of(cls).keys():
-            key = f"temperature.properties.{path.rpartition('.')[2]}"
-            demand(False, key, f"a case of this kind has no {path}")
-        return super().resolve(given) | at_temperature
+        return super().resolve(given) | Temperature.resolve(given)
 
     def derived(self) -> dict[str, str]:
         """Return the properties of the material that follow from the temperature."""

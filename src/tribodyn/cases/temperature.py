@@ -112,8 +112,16 @@ class Names:
     surfaces: str = ""
 
 
-class Temperatures(Group):
-    """Temperatures of assembly and of the run; a part without one stays at that of assembly."""
+class OverTime(Group):
+    """Temperatures that follow time, from the start of a run on."""
+
+    trunnion: TemperatureTable | None = None
+    bushing: TemperatureTable | None = None
+    casing: TemperatureTable | None = None
+
+
+class Temperature(Group):
+    """Temperatures of assembly and of the run, constant or over time."""
 
     assembly: float = quantity("20 degC", "at which clearance and radius are given", ASSUMED, gt=0)
     trunnion: float | None = quantity(None, "of the trunnion in the run", "", gt=0, example="300 degC")
@@ -127,16 +135,17 @@ class Temperatures(Group):
     casing_expansion: float | None = quantity(
         None, "thermal expansion of the casing", "", ge=0, example="11e-6 1/K"
     )
+    properties: PropertiesKeys = PropertiesKeys()
+    over_time: OverTime = OverTime()
+
+    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(
+        (part, f"over_time.{part}.{key}") for part in PARTS for key in TemperatureTable.model_fields
+    )
 
     @property
     def changes(self) -> bool:
         """Whether a part has a temperature of its own."""
         return any(temperature is not None for temperature in self.at_start.values())
-
-    @property
-    def at_start(self) -> dict[str, float | None]:
-        """Temperature of each part where a run begins [K]."""
-        return {part: getattr(self, part) for part in PARTS}
 
     def strains(self, surfaces: Surfaces, names: Names = Names()) -> tuple[float, float]:
         """Return the free thermal strains αΔT of trunnion and bushing [1]."""
@@ -184,12 +193,6 @@ class Temperatures(Group):
         demand(expansion is not None, key, "needed: this part is not as warm as at assembly")
         return float(expansion or 0.0)
 
-
-class Temperature(Temperatures):
-    """Temperatures of assembly and of the run, and the material over them."""
-
-    properties: PropertiesKeys = PropertiesKeys()
-
     @staticmethod
     def resolve(given: Mapping[str, Value], prefix: str = "temperature.") -> dict[str, Value]:
         """Return the material at the temperature of the bushing, where a table gives it.
@@ -218,24 +221,6 @@ class Temperature(Temperatures):
         """Return the dimensions of the joint of a case at these temperatures, see :meth:`hot`."""
         return self.hot(cold_geometry(joint), surfaces, joint.liner)
 
-
-class OverTime(Group):
-    """Temperatures that follow time, from the start of a run on."""
-
-    trunnion: TemperatureTable | None = None
-    bushing: TemperatureTable | None = None
-    casing: TemperatureTable | None = None
-
-
-class ChangingTemperature(Temperature):
-    """Temperatures of assembly and of the run, constant or over time."""
-
-    over_time: OverTime = OverTime()
-
-    ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(
-        (part, f"over_time.{part}.{key}") for part in PARTS for key in TemperatureTable.model_fields
-    )
-
     @property
     def tables(self) -> dict[str, TemperatureTable]:
         """Temperatures that follow time, by the part."""
@@ -245,7 +230,8 @@ class ChangingTemperature(Temperature):
     @property
     def at_start(self) -> dict[str, float | None]:
         """Temperature of each part where a run begins [K]."""
-        return super().at_start | {part: table.curve().at_start for part, table in self.tables.items()}
+        constant = {part: getattr(self, part) for part in PARTS}
+        return constant | {part: table.curve().at_start for part, table in self.tables.items()}
 
     def opening(
         self, cold: Cylinder, surfaces: Surfaces, liner: LinerKeys, names: Names = Names()

@@ -4,15 +4,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
 from mebdf.kernels.elementary import portable
 from tribodyn.cases import groups
-from tribodyn.cases.joint_keys import PlainJoint
-from tribodyn.cases.temperature import Temperature
-from tribodyn.contact import HasSurfacePair, Liner, SurfacePair
+from tribodyn.cases.rough import BushingCase
+from tribodyn.contact import Liner, SurfacePair
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.stopping import skip
@@ -28,30 +27,6 @@ _NOT_STORED: Final = ("work_", "heat_")
 _SAMPLES: Final = 24
 
 
-class HasBushing(HasSurfacePair, Protocol):
-    """A case with one clearance joint."""
-
-    @property
-    def surfaces(self) -> groups.Surfaces:
-        """Its table ``[surfaces]``."""
-
-    @property
-    def contact(self) -> groups.Contact:
-        """Its table ``[contact]``."""
-
-    @property
-    def joint(self) -> PlainJoint:
-        """Its table ``[joint]``."""
-
-    @property
-    def temperature(self) -> Temperature:
-        """Its table ``[temperature]``."""
-
-    @property
-    def solver(self) -> groups.Solver:
-        """Its table ``[solver]``."""
-
-
 @dataclass(frozen=True)
 class Bearing:
     """A shaft in a bore with its surfaces, apart from the mechanism around it."""
@@ -64,7 +39,7 @@ class Bearing:
     friction: Friction  #: Its friction.
 
 
-def bearings(case: HasBushing) -> dict[str, Bearing]:
+def bearings(case: BushingCase) -> dict[str, Bearing]:
     """Return the one shaft in a bore of a case, by the name of its table."""
     joint = case.joint
     return {
@@ -78,17 +53,17 @@ def bearings(case: HasBushing) -> dict[str, Bearing]:
     }
 
 
-def grid_of(case: HasBushing) -> tuple[int, int]:
+def grid_of(case: BushingCase) -> tuple[int, int]:
     """Return the joint's numbers of nodes around and along at the temperatures of the run, edges apart."""
     (bearing,) = bearings(case).values()
     return _grid(case, bearing)
 
 
-def _grid(case: HasBushing, bearing: Bearing) -> tuple[int, int]:
+def _grid(case: BushingCase, bearing: Bearing) -> tuple[int, int]:
     return case.solver.grid.resolved(bearing.geometry.clearance, bearing.pair.roughness_rms)
 
 
-def bushing_of(case: HasBushing) -> BushingJoint:
+def bushing_of(case: BushingCase) -> BushingJoint:
     """Return the clearance joint of a case with its tabulated contact law."""
     (bearing,) = bearings(case).values()
     contact = bearing.contact
@@ -112,7 +87,7 @@ def bushing_of(case: HasBushing) -> BushingJoint:
     )
 
 
-def bushing_facts(case: HasBushing) -> dict[str, object]:
+def bushing_facts(case: BushingCase) -> dict[str, object]:
     """Return the attributes of a result on the joint, SI units."""
     geometry = case.temperature.dimensions(case.joint, case.surfaces)
     return {
@@ -124,7 +99,7 @@ def bushing_facts(case: HasBushing) -> dict[str, object]:
     }
 
 
-def of_temperature(case: HasBushing, clearance: FloatArray | None = None) -> list[str]:
+def of_temperature(case: BushingCase, clearance: FloatArray | None = None) -> list[str]:
     """Return the effect of a case's temperatures, one sentence; nothing where they change nothing.
 
     ``clearance`` is that over the rows of a run [m], where it changes.

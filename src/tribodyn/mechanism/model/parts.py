@@ -20,7 +20,7 @@ from tribodyn.cases.joint_keys import (
     SurfaceWear,
 )
 from tribodyn.cases.keys import ASSUMED
-from tribodyn.cases.temperature import ChangingTemperature
+from tribodyn.cases.temperature import Temperature
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import foreign_keys, with_own_keys
@@ -147,7 +147,7 @@ class ClearanceKeys(_OfAllShapes):
     )
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
-    temperature: ChangingTemperature = ChangingTemperature()
+    temperature: Temperature = Temperature()
     ideal: bool = switch(False, "treat the joint as ideal and ignore this table", "assumed")
     nodes_around: int | None = count(
         None, "nodes around; without it solver.grid.theta", "", ge=12, le=4096, example="96"

@@ -14,7 +14,7 @@ from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint, Wear
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import Doors
 from tribodyn.cases.rough import BushingCase
-from tribodyn.cases.temperature import OVER_TIME, ChangingTemperature, cold_geometry, time_followed, times_of
+from tribodyn.cases.temperature import OVER_TIME, cold_geometry, time_followed, times_of
 from tribodyn.core.errors import Faults
 from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.mechanisms.output_keys import ERROR_LIMIT_OF, instants_of, wear_limits_of
@@ -168,7 +168,6 @@ class VsvCase(BushingCase):
         "Variable stator vane mechanism, dry rough trunnion joint", "heading of figures and report"
     )
     joint: VaneJoint = VaneJoint()
-    temperature: ChangingTemperature = ChangingTemperature()
     mechanism: MechanismKeys = MechanismKeys()
     drive: CrankKeys = CrankKeys()
     loads: VsvLoadKeys = VsvLoadKeys()
