@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 import tribodyn as td
 from measures.base import Numbers, keys
@@ -18,6 +19,8 @@ from tribodyn.papers.cheng_2022.runs import Runs
 SETTLED: Final = (
     0.01  #: Distance from the static equilibrium, over the clearance, within which it has settled.
 )
+
+ONSET: Final = 4.0 * float(np.hypot(0.392e-6, 1.586e-6))  #: Separation at which asperities meet [m].
 
 
 def residual(runs: Runs, *, digits: str, **changes: object) -> str:
@@ -41,9 +44,14 @@ def _off(run: xr.Dataset) -> FloatArray:
     return np.hypot(*(run[f"e_{axis}"].values - place for axis, place in zip("xy", balance(), strict=True)))
 
 
+def _touching(run: xr.Dataset) -> NDArray[np.bool_]:
+    """Return at which times the first asperities meet."""
+    return np.asarray(run["gap_min"].values < ONSET)
+
+
 def rebounds(runs: Runs, law: str) -> str:
     """Return how often the dry journal left contact again altogether."""
-    touching = _size(run_of(runs, "journal-dry", {"contact.law": law}), "F_c") > 0.0
+    touching = _touching(run_of(runs, "journal-dry", {"contact.law": law}))
     return str(np.count_nonzero(touching[:-1] & ~touching[1:]))
 
 
@@ -67,7 +75,7 @@ def oil_apart(runs: Runs, floor: str) -> FloatArray:
     shared = {"contact.minimum_entry_velocity": floor}
     rsdc, ke = (run_of(runs, "journal-oil", {"contact.law": name, **shared}) for name in ("rsdc", "ke"))
     apart = np.hypot(*(rsdc[f"e_{axis}"].values - ke[f"e_{axis}"].values for axis in "xy"))
-    first = int(np.argmax(_size(rsdc, "F_c") > 0.0))
+    first = int(np.argmax(_touching(rsdc)))
     return np.array([1e6 * float(apart.max()), 1e3 * float(rsdc["time"].values[first])])
 
 

@@ -151,7 +151,7 @@ def _begun(entries: Mapping[str, Entry], known: Known, source: str) -> tuple[typ
         return known.kinds[name], {"case": entries["case"]}
     if isinstance(name, str) and name in known.built_in:
         return known.built_in[name].model, _given(name, known.built_in[name])
-    if name in _GONE:
+    if str(name) in _GONE:
         raise InputError(_GONE[str(name)], key="case", source=source)
     or_file = ", or another case file" if known.begun_from else ""
     allowed = f"{', '.join(known.names)}{or_file}{meant(str(name), known.names)}"

@@ -49,7 +49,7 @@ def test_bands_of_every_kind_are_judged(tmp_path, capsys, computed):
             if ".." in band and verdict == "outside":
                 continue
             measured = factor * value
-            _, told = _judged(tmp_path, capsys, [f"{name},{measured},1,{band},,bench,because\n"])
+            _, told = _judged(tmp_path, capsys, [f"{name},{measured},{value},{band},,bench,because\n"])
             (row,) = json.loads(told.out)[0]["numbers"]
             assert row["verdict"] == (verdict if band else "reported only")
             assert row["computed"] == pytest.approx(value)

@@ -313,7 +313,7 @@ def test_runs_with_settings_of_their_own_determine_what_one_does_not(tmp_path: P
     case = _case()
     experiments = [
         Experiment("product.csv", {}, _read(_file(tmp_path, "product"))),
-        Experiment("swing.csv", {"run.duration": "3 ms"}, _read(_file(tmp_path, "swing", 1))),
+        Experiment("swing.csv", {"run.duration": "30 ms"}, _read(_file(tmp_path, "swing", 1))),
     ]
     noise = np.concatenate([one.data.noise(0.01) for one in experiments])
     keys = [VariedKey.of(case, text) for text in RANGES]
@@ -336,12 +336,12 @@ def test_each_run_has_its_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(calibration, "simulate", noted)
     data = _read(_file(tmp_path, "swing"))
-    settings = ({"run.duration": "3 ms"}, {"run.duration": "4 ms"})
+    settings = ({"run.duration": "30 ms"}, {"run.duration": "40 ms"})
     experiments = [Experiment("swing.csv", one, data) for one in settings]
     keys = [VariedKey.of(_case(), text) for text in RANGES]
     fit = Calibration(_case(), keys, experiments, np.tile(data.noise(0.01), 2))
     fit.computed([0.5, 0.5])
-    assert seen == [3e-3, 4e-3]
+    assert seen == [30e-3, 40e-3]
 
 
 def test_a_setting_of_a_fitted_key_is_refused(tmp_path: Path) -> None:

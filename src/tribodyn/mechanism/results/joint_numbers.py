@@ -79,7 +79,7 @@ def _rate_at_peak(effort: str, other: str, dataset: xr.Dataset, joints: slice) -
     where = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     power = settled(dataset, column(dataset, "drive_power")[:, joints])[where]
     both = settled(dataset, column(dataset, other)[:, joints])[where]
-    return math.nan if both or not values[where] else float(abs(power / values[where]))
+    return math.nan if both or not values[where] else readings.above_zero(float(abs(power / values[where])))
 
 
 #: Numbers for the size of motors and actuators, by name.
@@ -216,7 +216,7 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "N",
         "Joints",
         "Mean force in this joint; wear is proportional to it.",
-        lambda d, j: time_mean(d, of_part(d, "reaction_force", j, readings.lengths)),
+        lambda d, j: readings.above_zero(time_mean(d, of_part(d, "reaction_force", j, readings.lengths))),
     ),
     "offset_max_um": _named(
         "Offset, peak",

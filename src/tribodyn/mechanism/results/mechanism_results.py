@@ -56,7 +56,7 @@ def _power(dataset: xr.Dataset) -> float:
 
     The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
     """
-    if not reading.column(dataset, "drive_power").any():
+    if np.abs(reading.column(dataset, "drive_power")).max(initial=0.0) < readings.NOTHING:
         return math.nan
     gained, others = (
         sum(reading.column(dataset, name) for name in names if name in dataset.variables)

@@ -57,9 +57,12 @@ def least(values: FloatArray) -> float:
     return float(finite.min()) if finite.size else math.nan
 
 
+NOTHING: Final = 1.0e-20  #: Size below which a number is the rounding of zero, in any unit.
+
+
 def above_zero(value: float) -> float:
-    """Return a number, or NaN where it is zero and thus not shown."""
-    return value if value > 0.0 else math.nan
+    """Return a number, or NaN where it is zero but for rounding, and thus not shown."""
+    return value if value > NOTHING else math.nan
 
 
 def of_surfaces(dataset: xr.Dataset, joint: int) -> NDArray[np.intp]:

@@ -39,7 +39,7 @@ def run_of(runs: Runs, name: str, changes: Mapping[str, object]) -> xr.Dataset:
     rates = {f"e_{axis}_dot": one["relative_velocity"].sel(axis=axis, drop=True) for axis in "xy"}
     energies = {str(key): run[key] for key in run.data_vars if str(key).startswith("energy_")}
     attributes = {**run.attrs, "clearance": float(one["clearance"])}
-    return xr.Dataset({**columns, **rates, **energies}, attrs=attributes)
+    return xr.Dataset({**columns, **rates, **energies, "gap_min": one["gap_min"]}, attrs=attributes)
 
 
 def over_laws(runs: Runs, name: str) -> xr.Dataset:
