@@ -30,7 +30,7 @@ CLOSE: Final = 2e-3
 PEAKS: Final = 3e-2
 #: By parts of names, without and with blows (:data:`STRUCK`); :data:`CLOSE` holds for the others.
 BOUNDS: Final = {
-    **dict.fromkeys(("_max_", "peak_", "_outside_", "rebounds", "settling", "speed_error"), (PEAKS, 8e-2)),
+    **dict.fromkeys(("_max_", "peak_", "_outside_", "speed_error"), (PEAKS, 8e-2)),
     "_sustained_": (2e-2, 5e-2),
     "force_mean_": (CLOSE, 1e-2),
     # Means with their sign, of which parts cancel: that of four-bar scatters by 2 % over tolerances.
@@ -41,8 +41,13 @@ ONE_RUN: Final = (1.0,)
 SEVERAL: Final = (1.0, 0.75, 0.87, 1.15, 1.33)
 #: Cases whose single runs scatter by impacts, see :func:`numbers`.
 STRUCK: Final = dict.fromkeys(("four-bar", "slider-crank", "slider-crank-oil", "vsv"), SEVERAL)
-#: Numbers that jump: the last rebound ends at 1.0 to 1.1 ms in 22 of 32 runs, at up to 2.2 ms in others.
-AT_A_THRESHOLD: Final = {"journal-dry": {"settling_time_ms"}}
+#: Numbers that jump, by the beginnings of their names: what the small rebounds after the first impact make of
+#: the largest force of 99 % of the time and of wear scatters by 24 % over tolerances. A shaft at rest has a
+#: drive moment of rounding.
+AT_A_THRESHOLD: Final = {
+    "journal-dry": ("joint_force_sustained", "force_sustained", "pressure_sustained", "wear", "worn"),
+    "journal-oil": ("drive_moment",),
+}
 
 
 def simulated(name: str) -> list[xr.Dataset]:
@@ -63,8 +68,8 @@ def numbers(name: str, results: list[xr.Dataset]) -> dict[str, float]:
     peaks, 0.4 % in what lasts; vsv 3.5 % in the pressure of impacts; all four 0.1 % in the rest.
     """
     runs = [_numbers(result) for result in results]
-    asked = runs[0].keys() - AT_A_THRESHOLD.get(name, set())
-    return {key: float(f"{median(run[key] for run in runs):.6g}") for key in runs[0] if key in asked}
+    asked = [key for key in runs[0] if not key.startswith(AT_A_THRESHOLD.get(name, ()))]
+    return {key: float(f"{median(run[key] for run in runs):.6g}") for key in asked}
 
 
 def _numbers(result: xr.Dataset) -> dict[str, float]:
