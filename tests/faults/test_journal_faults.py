@@ -60,7 +60,7 @@ def test_a_load_that_the_contact_cannot_carry_stops_the_run_and_is_explained(
     assert main(["run", "journal-dry", *changes, "--no-figures", "-o", str(target)]) == 1
     message = capsys.readouterr().err
     assert "closer than the contact law reaches (-4 sigma)" in message
-    assert '; joint.bulk = "conformal" lets' in message
+    assert '; joints.bearing.clearance.bulk = "conformal" lets' in message
     summary = json.loads((target / "summary.json").read_text(encoding="utf-8"))
     assert summary["status"] == "failed"
     assert "stopped at t = " in summary["failure"]

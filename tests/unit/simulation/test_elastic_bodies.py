@@ -62,5 +62,5 @@ def test_a_sweep_says_which_of_its_points_have_elastic_bodies() -> None:
     (note,) = json.loads(found.attrs["notes"])
     assert note.startswith("1 of 2 points have elastic bodies")
     assert note.endswith("loads.force_x = 10000 N")
-    alike = sweep(case.replace({"joint.bulk": "conformal"}), vary, workers=0)
+    alike = sweep(case.replace({"joints.bearing.clearance.bulk": "conformal"}), vary, workers=0)
     assert json.loads(alike.attrs["notes"]) == []
