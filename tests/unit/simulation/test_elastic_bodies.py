@@ -57,10 +57,10 @@ def test_a_load_that_bodies_do_not_carry_either_leaves_the_run_that_asperities_c
 def test_a_sweep_says_which_of_its_points_have_elastic_bodies() -> None:
     surfaces = {f"surfaces.{body}.roughness": "0.1 um" for body in ("trunnion", "bushing")}
     case = load_case("journal-dry").replace({**surfaces, "run.duration": "1 ms"})
-    vary = {"loads.force_x": ["1 N", "10 kN"]}
+    vary = {"loads.x.force": ["1 N", "10 kN"]}
     found = sweep(case, vary, workers=0)
     (note,) = json.loads(found.attrs["notes"])
     assert note.startswith("1 of 2 points have elastic bodies")
-    assert note.endswith("loads.force_x = 10000 N")
+    assert note.endswith("loads.x.force.value = 10000 N")
     alike = sweep(case.replace({"joints.bearing.clearance.bulk": "conformal"}), vary, workers=0)
     assert json.loads(alike.attrs["notes"]) == []
