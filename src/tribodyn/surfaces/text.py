@@ -28,7 +28,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import is_comment, named, separator_of
 from tribodyn.core.quoting import as_given, brief
 from tribodyn.surfaces.scan import Length, Scan, from_columns
-from tribodyn.surfaces.table import Block, Line, Table, blocks, too_long
+from tribodyn.surfaces.table import Line, lines, table
 
 #: Reads the numbers of a file, shape (lines, fields); called with the fields of a line if they are known.
 Numbers: TypeAlias = Callable[[int | None], FloatArray]
@@ -59,23 +59,20 @@ def read_text(stream: BinaryIO, source: str, length: Length, given: Scale) -> Sc
     where the file gives them too. Raises InputError if anything is not as the module says; the message names
     the line.
     """
-    every = blocks(stream, source)
+    every = lines(stream, source)
     notes, header, separator, first = _head(every, source)
     scale = _settled(notes, given, source)
 
     def late(line: Line) -> None:
-        if _note(line, source):
+        if _note(line):
             raise InputError(f"line {line.number}: unit and spacing stand above the heights", source=source)
 
     def numbers(width: int | None) -> FloatArray:
-        table = Table(separator, width, late, source)
-        for block in chain([first], every):
-            table.add(block if separator == "," else block.with_points(separator))
-        return table.values()
+        return table(chain([first], every), separator, width, late, source)
 
     if header is not None:
         return _profile(_columns(header, separator, source), numbers, scale, length, source)
-    if scale.spacing is None and _fields(first, separator) == 2:
+    if scale.spacing is None and first.text.count(separator) == 1:
         return _profile(_without_names(scale, source), numbers, scale, length, source)
     return _table(numbers, scale, length, source)
 
@@ -127,25 +124,22 @@ def _length(text: str, length: Length, key: str) -> float:
         ) from None
 
 
-def _head(every: Iterator[Block], source: str) -> tuple[dict[str, str], Line | None, str, Block]:
-    """Return notes, the last line of words, separator, and the block that begins with the first numbers."""
+def _head(every: Iterator[Line], source: str) -> tuple[dict[str, str], Line | None, str, Line]:
+    """Return notes, the last line of words, separator, and the first line of numbers."""
     notes: dict[str, str] = {}
     header: Line | None = None
-    for block in every:
-        for line in block.lines():
-            if is_comment(line.text):
-                notes |= _note(line, source)
-                continue
-            separator = separator_of(line.text)
-            if not _is_header(line.text.split(separator)):
-                return notes, header, separator, block.after(line.number)
-            header = line
+    for line in every:
+        if is_comment(line.text):
+            notes |= _note(line)
+            continue
+        separator = separator_of(line.text)
+        if not _is_header(line.text.split(separator)):
+            return notes, header, separator, line
+        header = line
     raise InputError("there are no heights in this file", source=source)
 
 
-def _note(line: Line, source: str) -> dict[str, str]:
-    if line.goes_on:
-        raise too_long(line.number, source)
+def _note(line: Line) -> dict[str, str]:
     note = _NOTE.fullmatch(line.text.strip())
     return {} if note is None else {note[1].lower(): note[2]}
 
@@ -208,11 +202,6 @@ def _columns(header: Line, separator: str, source: str) -> dict[str, str | None]
     swapped = [name.lower() for name, _ in found] == ["h", "x"]
     names = ("h", "x") if swapped else ("x", "h")
     return {name: unit for name, (_, unit) in zip(names, found, strict=True)}
-
-
-def _fields(block: Block, separator: str) -> int:
-    """Return the fields of the first line of numbers."""
-    return next((line.text.count(separator) + 1 for line in block.lines() if not line.goes_on), 0)
 
 
 def _without_names(scale: Scale, source: str) -> dict[str, str | None]:
