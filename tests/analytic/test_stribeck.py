@@ -84,15 +84,15 @@ def test_turning_the_other_way_mirrors_the_attitude(journal: Journal) -> None:
     along = np.array([200.0, 100.0]) / math.hypot(200.0, 100.0)
     across = np.array([-along[1], along[0]])
     # The grid has no mirror axis along the load: the difference is that of the quadrature.
-    assert back.attitude[:2] @ along == pytest.approx(forth.attitude[:2] @ along, rel=1e-4)
-    assert back.attitude[:2] @ across == pytest.approx(-forth.attitude[:2] @ across, rel=1e-4)
+    assert back.centre @ along == pytest.approx(forth.centre @ along, rel=1e-4)
+    assert back.centre @ across == pytest.approx(-forth.centre @ across, rel=1e-4)
     assert back.film[4] == pytest.approx(-forth.film[4], rel=1e-4)
 
 
 def test_the_wedge_shifts_the_journal_along_its_rotation(journal: Journal) -> None:
     # Pressure builds up where oil is dragged into the narrowing gap, and pushes the centre on.
-    attitude = equilibrium(journal, speed=400.0).attitude
-    assert 200.0 * attitude[1] - 100.0 * attitude[0] > 0.0
+    x, y = equilibrium(journal, speed=400.0).centre
+    assert 200.0 * y - 100.0 * x > 0.0
 
 
 def test_a_mass_conserving_film_has_an_equilibrium(journal: Journal) -> None:

@@ -32,7 +32,7 @@ def residual(runs: Runs, *, digits: str, **changes: object) -> str:
 @cache
 def balance() -> FloatArray:
     """Return the place of the static equilibrium [m], shape (2,); oil does not change it."""
-    return equilibrium(journal_of(td.load_case("journal-dry"))).attitude[:2]
+    return equilibrium(journal_of(td.load_case("journal-dry"))).centre
 
 
 def _size(run: xr.Dataset, name: str) -> FloatArray:

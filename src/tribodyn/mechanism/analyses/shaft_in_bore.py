@@ -1,4 +1,4 @@
-"""Static equilibrium of a shaft in its bore: from load and speed to attitude, and who carries the load.
+"""Static equilibrium of a shaft in its bore: from load and speed to its place, and who carries the load.
 
 The axis of the shaft is at rest, so the film has its wedge and no squeeze, the contact no damping, and
 friction slides at ω r_j.
@@ -36,25 +36,18 @@ class Journal:
     """A shaft in a bore under a constant load, in axes of which Z is that of the bore."""
 
     joint: BushingJoint  #: The bore.
-    #: Force along X and Y [N]; of a shaft that tilts also its moments about X (right-handed) and Y
-    #: (left-handed, as φ_y) [N m].
-    load: tuple[float, ...]
+    load: tuple[float, float]  #: Force along X and Y [N]; the shaft stays parallel to the bore.
     film: Film | None = None  #: The oil film; none by default.
-
-    @property
-    def tilts(self) -> bool:
-        """Whether it can tilt in the bore; otherwise it stays parallel to it."""
-        return len(self.load) > 2
 
     @property
     def force(self) -> float:
         """Size of the force [N]."""
-        return float(portable.hypot(*self.load[:2]))
+        return float(portable.hypot(*self.load))
 
     @property
     def direction(self) -> FloatArray:
         """Unit vector along the force, shape (2,); along X where there is none."""
-        return np.array(self.load[:2]) / self.force if self.force else np.array([1.0, 0.0])
+        return np.array(self.load) / self.force if self.force else np.array([1.0, 0.0])
 
 
 def journal_of(case: Case, joint: str = "", load: float | str | None = None) -> Journal:
@@ -114,7 +107,7 @@ class Equilibrium:
     """A shaft at rest in its bore, but for its rotation."""
 
     journal: Journal  #: The shaft.
-    attitude: FloatArray  #: (e_x, e_y, φ_x, φ_y) [m, rad], shape (4,).
+    centre: FloatArray  #: (e_x, e_y) from the axis of the bore [m], shape (2,).
     #: Wrench of contact pressure and friction on the shaft (F_x, F_y, M_x, M_y, M_z) [N, N m], shape (5,).
     contact: FloatArray
     film: FloatArray  #: The same of the film.
@@ -122,7 +115,7 @@ class Equilibrium:
     @property
     def eccentricity(self) -> float:
         """Distance of the centre from the axis of the bore [m]."""
-        return float(portable.hypot(self.attitude[0], self.attitude[1]))
+        return float(portable.hypot(*self.centre))
 
     @property
     def friction_coefficient(self) -> float:
@@ -148,27 +141,25 @@ def equilibrium(journal: Journal, *, speed: float = 0.0, guess: FloatArray | Non
     """Return the static equilibrium of a shaft under its load.
 
     ``journal``: the shaft and its load; ``speed``: speed of rotation ω about Z, right-handed [rad/s];
-    ``guess``: attitude to try first [m, rad], shape (2,) or (4,). By default, and where it leads nowhere, the
-    shaft is laid against the bore in the direction of the load. Raises InputError if no equilibrium is found:
-    the load is more than contact and film can carry.
+    ``guess``: centre to try first [m], shape (2,). By default, and where it leads nowhere, the shaft is laid
+    against the bore in the direction of the load. Raises InputError if no equilibrium is found: the load is
+    more than contact and film can carry.
     """
     statics = _Statics(journal, speed)
     starts = _starts(journal)
     if guess is not None:
         starts.insert(0, np.asarray(guess, dtype=np.float64))
-    half, n = statics.joint.z[-1], 4 if journal.tilts else 2
-    scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])[:n]
     for start in starts:
-        q = damped_newton(statics, start[:n], scale, 0.5 * journal.joint.roughness)
-        if q is not None and statics.in_range:
-            statics(q)
-            return Equilibrium(journal, statics.state[:4].copy(), statics.contact, statics.oil)
+        centre = damped_newton(statics, start, np.ones(2), 0.5 * journal.joint.roughness)
+        if centre is not None and statics.in_range:
+            statics(centre)
+            return Equilibrium(journal, centre, statics.contact, statics.oil)
     words = f"no equilibrium was found: {journal.force:.4g} N may be more than this bearing can carry"
     raise InputError(words, key="load")
 
 
 class _Statics:
-    """The loads on a shaft whose axis is at rest, over its attitude."""
+    """The forces on a shaft whose axis is at rest, over its centre."""
 
     def __init__(self, journal: Journal, speed: float) -> None:
         self.journal, self.speed, self.joint = journal, speed, journal.joint.data()
@@ -176,14 +167,10 @@ class _Statics:
         self.memory, self.state = new_memory(self.joint), np.zeros(8)
         self.contact, self.oil = np.zeros(5), np.zeros(5)
 
-    def __call__(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the generalised loads at an attitude (n,), and their derivative (n, n).
-
-        The moments of the joint act on the tilts as M sec²φ, because a point of the axis at height z moves
-        by −z sec²φ dφ.
-        """
-        n, scratch = q.size, self.memory.scratch
-        self.state[:n] = q
+    def __call__(self, centre: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the forces at a centre, shape (2,), and their derivative, shape (2, 2)."""
+        scratch = self.memory.scratch
+        self.state[:2] = centre
         fill_pose(self.state, self.speed, 0.0, scratch.pose)
         wrench_and_jacobian(self.joint, self.memory, scratch.pose, scratch.wrench, scratch.jacobian)
         jacobian, of_film = np.zeros((5, 9)), np.zeros((5, 9))
@@ -191,10 +178,8 @@ class _Statics:
         from_jacobian(scratch.jacobian, jacobian)
         if self.film is not None:
             film_wrench_and_jacobian(*self.film, self.state, self.speed, self.oil, of_film)
-        tangent = np.append([0.0, 0.0], portable.tan(self.state[2:4]))
-        sec2, wrench = 1.0 + tangent**2, (self.contact + self.oil)[:4]
-        gradient = sec2[:, None] * (jacobian + of_film)[:4, :4] + np.diag(2.0 * sec2 * tangent * wrench)
-        return np.array(self.journal.load) + (sec2 * wrench)[:n], gradient[:n, :n]
+        forces = np.array(self.journal.load) + (self.contact + self.oil)[:2]
+        return forces, (jacobian + of_film)[:2, :2]
 
     @property
     def in_range(self) -> bool:
@@ -208,4 +193,4 @@ def _starts(journal: Journal) -> list[FloatArray]:
     """Lay the shaft against the bore in the direction of the load."""
     clearance, roughness = journal.joint.geometry.clearance, journal.joint.roughness
     depths = [max(clearance - depth * roughness, 0.1 * clearance) for depth in _START_DEPTHS]
-    return [np.append(e * journal.direction, [0.0, 0.0]) for e in depths]
+    return [e * journal.direction for e in depths]

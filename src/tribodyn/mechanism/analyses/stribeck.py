@@ -37,7 +37,7 @@ def equilibria(journal: Journal, speeds: Iterable[float]) -> list[Equilibrium]:
         raise InputError("a Stribeck curve needs a load", key="load")
     points: list[Equilibrium] = []
     for speed in speeds:
-        guess = points[-1].attitude if points else None
+        guess = points[-1].centre if points else None
         points.append(equilibrium(journal, speed=float(speed), guess=guess))
     return points
 

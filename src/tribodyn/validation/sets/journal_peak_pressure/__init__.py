@@ -63,7 +63,7 @@ def _peak(given: Mapping[str, float], speed: float, load: float) -> float:
     journal = rig(given, load)
     film = journal.film
     assert film is not None
-    start = equilibrium(journal, speed=speed).attitude[:2]
+    start = equilibrium(journal, speed=speed).centre
     full = given["tilt"] * film.clearance / film.length
     for tilt in (full, 0.5 * full):
         try:
