@@ -1,26 +1,21 @@
 """The figures of a result as files, and a result as a film or as moving solids: GIF, MP4 or glTF."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 import xarray as xr
 
+from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 from tribodyn.figures import sweep
-from tribodyn.figures.chart import Family, remove, save
+from tribodyn.figures.chart import Animation, Family, remove, save
 from tribodyn.mechanisms.results import all_there, mechanism_of
 from tribodyn.results.atomic import write_bytes
 from tribodyn.views.playback import playback_times
-
-if TYPE_CHECKING:
-    from tribodyn.core.arrays import FloatArray
-    from tribodyn.figures.chart import Animation
 
 
 def figures_of(dataset: xr.Dataset) -> Mapping[str, Family]:

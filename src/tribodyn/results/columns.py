@@ -3,22 +3,18 @@
 ``reaction_force.wrist.x [N]`` is the name of one in files that a fit reads and that an export writes.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 #: Groups of variables by their unit; outputs and motions of bodies have several.
 GROUPS: Final = {

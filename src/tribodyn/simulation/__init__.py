@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import cast
+
+import xarray as xr
 
 from tribodyn.cases.case import Case
 from tribodyn.cases.groups import Contact
@@ -23,9 +25,6 @@ from tribodyn.simulation.checkpoint import is_of
 from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def simulate(

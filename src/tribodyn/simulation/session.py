@@ -1,10 +1,10 @@
 """One run of one case: its system integrated, and what came of it as a dataset."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
 
 from tribodyn.core.digests import digest
 from tribodyn.core.platforms import provenance
@@ -23,9 +23,6 @@ from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
 from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, WEAR_SCATTER
 from tribodyn.simulation import session as hashes
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 Progress = Callable[[float], None] | None  #: Called with the simulated time [s] after every accepted step.
 

@@ -1,14 +1,13 @@
 """Wear: the linear estimate of a plain run, and campaigns over many cycles of a system that wears."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, cast
+from typing import Final, cast
 
 import numpy as np
+import xarray as xr
 
 from tribodyn.cases.joint_keys import Wear
 from tribodyn.core.arrays import FloatArray
@@ -18,9 +17,6 @@ from tribodyn.simulation import checkpoint as checkpoints
 from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_campaign
 from tribodyn.simulation.session import Session
 from tribodyn.wear import Archard, JumpControl, worn_volume
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _ROUNDING: Final = 1.0e-9
 

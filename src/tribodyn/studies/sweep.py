@@ -1,7 +1,5 @@
 """A sweep from its plan to the merged dataset and its files, with the time that it will take."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Mapping
@@ -9,7 +7,9 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
+
+import xarray as xr
 
 from tribodyn.cases import Case, keys_in
 from tribodyn.cases.tables import with_components
@@ -29,10 +29,6 @@ from tribodyn.studies.plan import Point, Sampling, SweepPlan, make_plan
 from tribodyn.studies.statistics import statistics
 from tribodyn.studies.variation import SOURCE, Asked, written
 from tribodyn.studies.work import Finished, SweepJob, compute
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 _LOOKED_AT: Final = 16  #: Points whose estimates stand for all.
 

@@ -1,24 +1,19 @@
 """Springs in results: force, length and stored energy, from the motion of their ends; key results of each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
+import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.assembly.output_values import Motion, observing
 from tribodyn.mechanism.frames import GROUND
+from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.output_declarations import OutputKeys
 from tribodyn.mechanisms.mechanism_protocol import ByPart, plain
 from tribodyn.results.reading import column, entries, settled
 from tribodyn.results.summary import KeyResult
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from tribodyn.mechanism.mechanism_case import MechanismCase
 
 
 def spring_columns(case: MechanismCase, motion: Motion) -> dict[str, FloatArray]:
