@@ -1,7 +1,5 @@
 """From a case to a dataset: build its system, integrate it, gather what a user asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike

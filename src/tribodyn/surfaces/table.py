@@ -1,7 +1,5 @@
 """A table of numbers in a text, read line by line."""
 
-from __future__ import annotations
-
 import math
 import re
 from array import array
