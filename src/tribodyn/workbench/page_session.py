@@ -17,19 +17,6 @@ from typing import Any, Final
 from tribodyn.core.errors import TribodynError
 from tribodyn.workbench import messages
 from tribodyn.workbench.edits import edited
-from tribodyn.workbench.messages import (
-    Cancel,
-    Drawn,
-    Edit,
-    InvalidMessage,
-    Message,
-    Pin,
-    RunRequest,
-    SlopeRequest,
-    Sweep,
-    Values,
-    parsed,
-)
 from tribodyn.workbench.series import Series, SeriesPlan, slope_of, sweep_of
 from tribodyn.workbench.server_state import ServerState, in_words, refusal, refuse_rows
 from tribodyn.workbench.variant import Origin, Variant, neighbours
@@ -43,20 +30,20 @@ _REPORTED: Final = 1.0  #: Expected time from which the progress of a run is rep
 Send = Callable[[str | bytes], None]
 
 
-def _read(origin: Origin, values: Values) -> Variant:
+def _read(origin: Origin, values: messages.Values) -> Variant:
     """Return a case with other values, and the texts derived from it."""
     variant = origin.varied(values)
     refuse_rows(variant.case)
     return variant.filled()
 
 
-def _opened(request: RunRequest, variant: Variant) -> RunRequest:
+def _opened(request: messages.RunRequest, variant: Variant) -> messages.RunRequest:
     """Return the request for the case that the workbench opens as agreed: the page begins with its run."""
-    opens = not request.values and request.edit == Edit() and not variant.case.campaign_cycles
+    opens = not request.values and request.edit == messages.Edit() and not variant.case.campaign_cycles
     return replace(request, agreed=True) if opens else request
 
 
-def _same(one: RunRequest, other: RunRequest) -> bool:
+def _same(one: messages.RunRequest, other: messages.RunRequest) -> bool:
     """Return whether two requests are for the same run."""
     return one.values == other.values and one.edit == other.edit
 
@@ -70,14 +57,14 @@ class PageSession:
 
     def __init__(self, state: ServerState, send: Send, log_error: Callable[[str], None]) -> None:
         self.state, self.send, self.log_error = state, send, log_error
-        self.origin, self.edit = state.origin, Edit()
-        self.newest: RunRequest | None = None
-        self.served: RunRequest | None = None
-        self.before: Values = {}
+        self.origin, self.edit = state.origin, messages.Edit()
+        self.newest: messages.RunRequest | None = None
+        self.served: messages.RunRequest | None = None
+        self.before: messages.Values = {}
         self.job: Job | None = None
         self.pins: set[str] = set()
-        self.series: dict[type[Message], Series] = {}
-        self.asked: dict[type[Message], int] = {}
+        self.series: dict[type[messages.Message], Series] = {}
+        self.asked: dict[type[messages.Message], int] = {}
         self._woken = asyncio.Event()
         self._undrawn: int | None = None
         self._unsent: tuple[bytes, int, int] | None = None
@@ -113,21 +100,21 @@ class PageSession:
     def receive(self, text: str | bytes) -> None:
         """Take a message of the page."""
         try:
-            self._dispatch(parsed(text))
-        except InvalidMessage as error:
+            self._dispatch(messages.parsed(text))
+        except messages.InvalidMessage as error:
             self.report({"type": "error", "message": str(error)})
 
-    def _dispatch(self, said: Message) -> None:
+    def _dispatch(self, said: messages.Message) -> None:
         match said:
-            case RunRequest():
+            case messages.RunRequest():
                 self._request_run(said)
-            case Drawn(number):
+            case messages.Drawn(number):
                 self._drawn(number)
-            case Cancel(number):
+            case messages.Cancel(number):
                 self._cancel(number)
-            case Pin(run, kept):
+            case messages.Pin(run, kept):
                 self._pin(run, kept)
-            case Sweep() | SlopeRequest():
+            case messages.Sweep() | messages.SlopeRequest():
                 self._begin(self._begin_series(said))
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
@@ -144,7 +131,7 @@ class PageSession:
 
     # Requests
 
-    def _request_run(self, request: RunRequest) -> None:
+    def _request_run(self, request: messages.RunRequest) -> None:
         running, self.newest = self.served, request
         if self._ahead is not None:
             self._ahead.cancel()
@@ -182,7 +169,7 @@ class PageSession:
             if answered and request.rest and self.newest is None:
                 self._ahead = self._begin(self._compute_neighbours(request))
 
-    async def _edit(self, edit: Edit) -> None:
+    async def _edit(self, edit: messages.Edit) -> None:
         """Take the case as the page has edited it, and describe it to the page."""
         if edit == self.edit:
             return
@@ -193,7 +180,7 @@ class PageSession:
         self.state.kept.note(unchanged.run, unchanged.toml)
         self.report({"type": "model", **description})
 
-    async def _answer(self, request: RunRequest, variant: Variant) -> bool:
+    async def _answer(self, request: messages.RunRequest, variant: Variant) -> bool:
         """Send the answer to a request; False if the page got the reason why there is none."""
         kept = self.state.kept.frame(variant.run)
         if kept is not None:
@@ -227,7 +214,7 @@ class PageSession:
             return f"This run takes about {in_words(expected)}, as the last runs suggest."
         return ""
 
-    def _ask(self, request: RunRequest, reason: str, expected: float) -> None:
+    def _ask(self, request: messages.RunRequest, reason: str, expected: float) -> None:
         """Ask the user before a long run, or refuse one that is too long for this server."""
         longest = self.state.rules.longest
         if expected > longest:
@@ -237,7 +224,7 @@ class PageSession:
             return
         self.report({"type": "ask", "number": request.number, "seconds": expected, "message": reason})
 
-    async def _made(self, request: RunRequest, variant: Variant) -> bytes:
+    async def _made(self, request: messages.RunRequest, variant: Variant) -> bytes:
         """Return the body of the frame of a run."""
         rules, total = self.state.rules, variant.case.duration
 
@@ -293,7 +280,7 @@ class PageSession:
 
     # Background work
 
-    async def _compute_neighbours(self, request: RunRequest) -> None:
+    async def _compute_neighbours(self, request: messages.RunRequest) -> None:
         """Compute the runs one step to either side of the slider that moved last."""
         await asyncio.sleep(_CALM)
         around = partial(neighbours, self.origin, request.values, self.before)
@@ -313,14 +300,14 @@ class PageSession:
             state.pool.stop(job)
             raise
 
-    async def _begin_series(self, said: Sweep | SlopeRequest) -> None:
+    async def _begin_series(self, said: messages.Sweep | messages.SlopeRequest) -> None:
         self.asked[type(said)] = said.number
         if (old := self.series.pop(type(said), None)) is not None:
             old.cancel()
         made: Callable[[], SeriesPlan]
         made = (
             partial(sweep_of, self.state, self.origin, said)
-            if isinstance(said, Sweep)
+            if isinstance(said, messages.Sweep)
             else partial(slope_of, self.state, self.origin, said)
         )
         try:
@@ -341,7 +328,7 @@ class PageSession:
                 self.state.kept.unpin(run)
         elif run not in self.pins:
             if len(self.pins) >= self.state.rules.pins:
-                raise InvalidMessage(f"at most {self.state.rules.pins} runs can be pinned")
+                raise messages.InvalidMessage(f"at most {self.state.rules.pins} runs can be pinned")
             if not self.state.kept.pin(run):
-                raise InvalidMessage("this run is not kept any more")
+                raise messages.InvalidMessage("this run is not kept any more")
             self.pins.add(run)

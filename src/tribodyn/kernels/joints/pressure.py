@@ -6,18 +6,8 @@ Without branches, as the look-up: loops over nodes are to take four at once.
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.columns import (
-    APPROACH,
-    DAMPING,
-    ENTRY,
-    FRACTION,
-    INTERVAL,
-    PRESSURE,
-    RESISTANCE,
-    RIGID,
-    STIFFNESS,
-    whole,
-)
+from tribodyn.kernels.joints import columns
+from tribodyn.kernels.joints.columns import whole
 from tribodyn.kernels.lanes import WIDTH, load, rows, store, total, zeros
 from tribodyn.kernels.lookup import pressure_and_damping
 
@@ -91,15 +81,15 @@ def fill_pressures(
 ) -> None:
     """Fill ``RIGID``, ``DAMPING`` and ``PRESSURE``, at most ``most`` [Pa], of ``n`` nodes in the list."""
     for k in range(0, n, WIDTH):
-        x = load(work, FRACTION + k)
-        k_0, k_1, k_2, k_3, c_0, c_1, c_2, c_3 = rows(cubics, load(work, INTERVAL + k))
-        store(work, RIGID + k, k_0 + x * (k_1 + x * (k_2 + x * k_3)))
-        store(work, DAMPING + k, c_0 + x * (c_1 + x * (c_2 + x * c_3)))
+        x = load(work, columns.FRACTION + k)
+        k_0, k_1, k_2, k_3, c_0, c_1, c_2, c_3 = rows(cubics, load(work, columns.INTERVAL + k))
+        store(work, columns.RIGID + k, k_0 + x * (k_1 + x * (k_2 + x * k_3)))
+        store(work, columns.DAMPING + k, c_0 + x * (c_1 + x * (c_2 + x * c_3)))
     for k in range(whole(n)):
-        reference = reference_velocity(work[ENTRY + k], work[APPROACH + k], v_min)
-        ratio = work[APPROACH + k] / reference
-        pressure = total_pressure(work[RIGID + k], work[DAMPING + k], ratio, clip)
-        work[PRESSURE + k] = most if pressure > most else pressure
+        reference = reference_velocity(work[columns.ENTRY + k], work[columns.APPROACH + k], v_min)
+        ratio = work[columns.APPROACH + k] / reference
+        pressure = total_pressure(work[columns.RIGID + k], work[columns.DAMPING + k], ratio, clip)
+        work[columns.PRESSURE + k] = most if pressure > most else pressure
 
 
 @kernel
@@ -111,23 +101,23 @@ def fill_slopes(
     ``scale`` is the number of intervals of the table per gap [1/m].
     """
     for k in range(0, n, WIDTH):
-        x = load(work, FRACTION + k)
-        _, k_1, k_2, k_3, _, c_1, c_2, c_3 = rows(cubics, load(work, INTERVAL + k))
-        store(work, STIFFNESS + k, k_1 + x * (k_2 + k_2 + x * (k_3 + k_3 + k_3)))
-        store(work, RESISTANCE + k, c_1 + x * (c_2 + c_2 + x * (c_3 + c_3 + c_3)))
+        x = load(work, columns.FRACTION + k)
+        _, k_1, k_2, k_3, _, c_1, c_2, c_3 = rows(cubics, load(work, columns.INTERVAL + k))
+        store(work, columns.STIFFNESS + k, k_1 + x * (k_2 + k_2 + x * (k_3 + k_3 + k_3)))
+        store(work, columns.RESISTANCE + k, c_1 + x * (c_2 + c_2 + x * (c_3 + c_3 + c_3)))
     for k in range(whole(n)):
-        work[STIFFNESS + k], work[RESISTANCE + k] = slopes(
-            scale * work[STIFFNESS + k],
-            work[DAMPING + k],
-            scale * work[RESISTANCE + k],
-            work[PRESSURE + k],
-            work[APPROACH + k],
-            work[ENTRY + k],
+        work[columns.STIFFNESS + k], work[columns.RESISTANCE + k] = slopes(
+            scale * work[columns.STIFFNESS + k],
+            work[columns.DAMPING + k],
+            scale * work[columns.RESISTANCE + k],
+            work[columns.PRESSURE + k],
+            work[columns.APPROACH + k],
+            work[columns.ENTRY + k],
             v_min,
             clip,
         )
-        if work[PRESSURE + k] >= most:
-            work[STIFFNESS + k] = work[RESISTANCE + k] = 0.0
+        if work[columns.PRESSURE + k] >= most:
+            work[columns.STIFFNESS + k] = work[columns.RESISTANCE + k] = 0.0
 
 
 @kernel

@@ -17,6 +17,7 @@ from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints import collar as thrust
 from tribodyn.kernels.joints.bushing import wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
+from tribodyn.kernels.vsv import layout as at
 from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import (
     AIR_M,
@@ -33,30 +34,6 @@ from tribodyn.kernels.vsv.data import (
     VsvData,
     VsvMemory,
 )
-from tribodyn.kernels.vsv.layout import (
-    BIAS,
-    E_X,
-    E_Y,
-    N_BODY,
-    N_X,
-    O2_X,
-    O3_X,
-    OV_X,
-    OV_Y,
-    PHI_X,
-    PHI_Y,
-    S1_X,
-    S1_Z,
-    S2_X,
-    S2_Z,
-    S3_X,
-    S3_Z,
-    THETA_A,
-    THETA_B,
-    THETA_V,
-    VALUE,
-    VELOCITY,
-)
 from tribodyn.kernels.vsv.motion import drive, fill_motion, ring_centre
 from tribodyn.kernels.vsv.printed import add_printed_entries, fill_printed_motion, fill_printed_tests
 
@@ -65,44 +42,44 @@ from tribodyn.kernels.vsv.printed import add_printed_entries, fill_printed_motio
 def fill_test_motions(mechanism: Record, motion: FloatArray, test: FloatArray) -> None:
     """Fill the bodies' test motions (N_BODY, 5): along the crank, then four for the clearance motion."""
     if mechanism.exact > 0.0:
-        for row in range(N_BODY):
+        for row in range(at.N_BODY):
             for k in range(5):
                 test[row, k] = motion[row, k]
         return
     clear(test)
-    for row in range(N_BODY):
+    for row in range(at.N_BODY):
         test[row, 0] = motion[row, 0]
-    for row in (E_X, OV_X):
+    for row in (at.E_X, at.OV_X):
         # F_43 has no part along Z here, so it drops out only where vane and ring keep together along X.
-        test[row, 0] = -motion[S3_Z, VALUE] * motion[THETA_B, 0] - motion[S3_X, 0]
+        test[row, 0] = -motion[at.S3_Z, at.VALUE] * motion[at.THETA_B, 0] - motion[at.S3_X, 0]
     if mechanism.exact < 0.0:
         fill_printed_tests(mechanism, motion, test)
         return
-    s2_x, s2_z = motion[S2_X, VALUE], motion[S2_Z, VALUE]
-    d_x = s2_x - motion[S1_X, VALUE]
-    d_y = motion[S2_X + 1, VALUE] - mechanism.l_4
-    d_z = s2_z - motion[S1_Z, VALUE]
+    s2_x, s2_z = motion[at.S2_X, at.VALUE], motion[at.S2_Z, at.VALUE]
+    d_x = s2_x - motion[at.S1_X, at.VALUE]
+    d_y = motion[at.S2_X + 1, at.VALUE] - mechanism.l_4
+    d_z = s2_z - motion[at.S1_Z, at.VALUE]
     kappa = -d_y / (d_z * s2_x - d_x * s2_z)
     o3_x, o3_z = ring_centre(mechanism, s2_x, s2_z)
-    test[THETA_B, 1] = kappa
+    test[at.THETA_B, 1] = kappa
     d_s2 = (-s2_z * kappa, 1.0, s2_x * kappa)
     d_o3 = (-o3_z * kappa, 1.0, o3_x * kappa)
     for axis in range(3):
-        test[O2_X + axis, 1] = 0.5 * d_s2[axis]
-        test[N_X + axis, 1] = d_s2[axis] / mechanism.l_2
-        test[O3_X + axis, 1] = d_o3[axis]
-    for row in (E_X, OV_X):
-        test[row, 1] = -motion[S3_Z, VALUE] * kappa
+        test[at.O2_X + axis, 1] = 0.5 * d_s2[axis]
+        test[at.N_X + axis, 1] = d_s2[axis] / mechanism.l_2
+        test[at.O3_X + axis, 1] = d_o3[axis]
+    for row in (at.E_X, at.OV_X):
+        test[row, 1] = -motion[at.S3_Z, at.VALUE] * kappa
         test[row + 1, 1] = 1.0
-    theta_v = motion[THETA_V, VALUE]
-    test[THETA_V, 2] = 1.0
-    for row in (E_X, OV_X):
+    theta_v = motion[at.THETA_V, at.VALUE]
+    test[at.THETA_V, 2] = 1.0
+    for row in (at.E_X, at.OV_X):
         test[row, 2] = mechanism.l_4 * sin(theta_v)
         test[row + 1, 2] = -mechanism.l_4 * cos(theta_v)
-    test[PHI_X, 3] = 1.0
-    test[OV_Y, 3] = motion[OV_Y, 3]
-    test[PHI_Y, 4] = 1.0
-    test[OV_X, 4] = motion[OV_X, 4]
+    test[at.PHI_X, 3] = 1.0
+    test[at.OV_Y, 3] = motion[at.OV_Y, 3]
+    test[at.PHI_Y, 4] = 1.0
+    test[at.OV_X, 4] = motion[at.OV_X, 4]
 
 
 @kernel
@@ -110,7 +87,7 @@ def fill_air(data: VsvData, t: float, memory: VsvMemory) -> None:
     """Fill the loads on the vane: those of the paper's Table 3, and those from tables."""
     mechanism, actions, segment = data.mechanism, data.actions, memory.segment
     air, places, motion = memory.scratch.air, memory.scratch.places, memory.scratch.motion
-    theta_v, direction = motion[THETA_V, VALUE], memory.regime[0]
+    theta_v, direction = motion[at.THETA_V, at.VALUE], memory.regime[0]
     for k in range(air.size):
         air[k] = 0.0
     past = (theta_v - mechanism.switch_angle) / mechanism.switch_width
@@ -119,9 +96,9 @@ def fill_air(data: VsvData, t: float, memory: VsvMemory) -> None:
     air[AIR_M] = -mechanism.air_moment * direction
     follow(places, segment, TIME, t)
     follow(places, segment, VANE, theta_v)
-    follow(places, segment, CRANK_ANGLE, motion[THETA_A, VALUE])
-    follow(places, segment, VANE_SPEED, motion[THETA_V, VELOCITY])
-    follow(places, segment, CRANK_SPEED, motion[THETA_A, VELOCITY])
+    follow(places, segment, CRANK_ANGLE, motion[at.THETA_A, at.VALUE])
+    follow(places, segment, VANE_SPEED, motion[at.THETA_V, at.VELOCITY])
+    follow(places, segment, CRANK_SPEED, motion[at.THETA_A, at.VELOCITY])
     add_terms(actions.signals, actions.terms, 0, actions.terms.size, direction, places, air)
 
 
@@ -130,7 +107,7 @@ def slip_speed(regime: FloatArray, motion: FloatArray) -> float:
     """Return the vane speed that traction sees [rad/s]: the actual one, or fully sliding if asked."""
     if regime[1] != 0.0:
         return regime[1]
-    return motion[THETA_V, VELOCITY]
+    return motion[at.THETA_V, at.VELOCITY]
 
 
 @kernel
@@ -139,16 +116,18 @@ def fill_forces(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     mechanism, scratch = data.mechanism, memory.scratch
     force, collar = scratch.force, scratch.collar
     direction, air = memory.regime[0], scratch.air
-    for row in range(N_BODY):
+    for row in range(at.N_BODY):
         force[row] = mechanism.weight[row]
-    force[E_X] = scratch.wrench[0]
-    force[E_Y] = scratch.wrench[1]
-    force[PHI_X] = scratch.secants[0] * (scratch.wrench[2] + air[BEND_X])
-    force[PHI_Y] = scratch.secants[1] * (scratch.wrench[3] + air[BEND_Y])
-    force[THETA_V] = air[AIR_M] + scratch.wrench[4]
-    force[OV_X] = air[AIR_X]
-    force[OV_Y] = air[AIR_Y]
-    collar[PHI_X], collar[PHI_Y], collar[THETA_V] = thrust.moments(data.collar, y[2], y[3], direction)
+    force[at.E_X] = scratch.wrench[0]
+    force[at.E_Y] = scratch.wrench[1]
+    force[at.PHI_X] = scratch.secants[0] * (scratch.wrench[2] + air[BEND_X])
+    force[at.PHI_Y] = scratch.secants[1] * (scratch.wrench[3] + air[BEND_Y])
+    force[at.THETA_V] = air[AIR_M] + scratch.wrench[4]
+    force[at.OV_X] = air[AIR_X]
+    force[at.OV_Y] = air[AIR_Y]
+    collar[at.PHI_X], collar[at.PHI_Y], collar[at.THETA_V] = thrust.moments(
+        data.collar, y[2], y[3], direction
+    )
 
 
 @kernel
@@ -159,9 +138,9 @@ def assemble(inertias: FloatArray, scratch: Record) -> None:
     clear(mass)
     for i in range(5):
         load[i] = 0.0
-    for row in range(N_BODY):
+    for row in range(at.N_BODY):
         inertia = inertias[row]
-        applied = force[row] - inertia * motion[row, BIAS]
+        applied = force[row] - inertia * motion[row, at.BIAS]
         for i in range(5):
             share = test[row, i]
             load[i] += share * applied
@@ -173,14 +152,16 @@ def assemble(inertias: FloatArray, scratch: Record) -> None:
 def collar_share(test: FloatArray, collar: FloatArray, i: int) -> float:
     """Return the generalised force of a unit F_cz along test motion ``i``."""
     return (
-        test[PHI_X, i] * collar[PHI_X] + test[PHI_Y, i] * collar[PHI_Y] + test[THETA_V, i] * collar[THETA_V]
+        test[at.PHI_X, i] * collar[at.PHI_X]
+        + test[at.PHI_Y, i] * collar[at.PHI_Y]
+        + test[at.THETA_V, i] * collar[at.THETA_V]
     )
 
 
 @inlined
 def lever_lift(exact: float, motion: FloatArray) -> float:
     """Return tan θ_b, the vertical per horizontal force of the frictionless pin; 0 in ``paper``."""
-    return float(-motion[S3_X, VALUE] / motion[S3_Z, VALUE]) if exact > 0.0 else 0.0
+    return float(-motion[at.S3_X, at.VALUE] / motion[at.S3_Z, at.VALUE]) if exact > 0.0 else 0.0
 
 
 @kernel
@@ -190,22 +171,23 @@ def add_collar(mechanism: Record, scratch: Record, factor: float) -> None:
     at_rest = (
         mechanism.vane_weight
         - scratch.air[AIR_Z]
-        + lift * (scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * scratch.motion[OV_X, BIAS])
+        + lift
+        * (scratch.wrench[0] + scratch.force[at.OV_X] - mechanism.m_v * scratch.motion[at.OV_X, at.BIAS])
     )
     for i in range(5):
         share = factor * collar_share(scratch.test, scratch.collar, i)
         scratch.load[i] += share * at_rest
         for j in range(4):
-            scratch.mass[i, j] += share * lift * mechanism.m_v * scratch.motion[OV_X, 1 + j]
+            scratch.mass[i, j] += share * lift * mechanism.m_v * scratch.motion[at.OV_X, 1 + j]
 
 
 @kernel
 def collar_force(mechanism: Record, scratch: Record, acceleration: FloatArray) -> float:
     """Return m_v g − F_airz + F_43z [N] for given clearance accelerations; negative means lift-off."""
-    x_ov = scratch.motion[OV_X, BIAS]
+    x_ov = scratch.motion[at.OV_X, at.BIAS]
     for j in range(4):
-        x_ov += scratch.motion[OV_X, 1 + j] * acceleration[j]
-    f_43x = scratch.wrench[0] + scratch.force[OV_X] - mechanism.m_v * x_ov
+        x_ov += scratch.motion[at.OV_X, 1 + j] * acceleration[j]
+    f_43x = scratch.wrench[0] + scratch.force[at.OV_X] - mechanism.m_v * x_ov
     lift = lever_lift(mechanism.exact, scratch.motion)
     return mechanism.vane_weight - scratch.air[AIR_Z] + lift * f_43x
 
@@ -291,11 +273,11 @@ def fill_load_gradient(
     collar_xx, collar_yy, collar_xy = thrust.stiffness(data.collar, y[2], y[3], f_cz)
     for i in range(4):
         c_i = collar_share(test, scratch.collar, 1 + i)
-        t_x = test[E_X, 1 + i] + c_i * lift
-        t_y = test[E_Y, 1 + i]
-        t_px = test[PHI_X, 1 + i]
-        t_py = test[PHI_Y, 1 + i]
-        t_v = test[THETA_V, 1 + i]
+        t_x = test[at.E_X, 1 + i] + c_i * lift
+        t_y = test[at.E_Y, 1 + i]
+        t_px = test[at.PHI_X, 1 + i]
+        t_py = test[at.PHI_Y, 1 + i]
+        t_v = test[at.THETA_V, 1 + i]
         d_omega = 0.0
         for k in range(8, -1, -1):
             total = t_x * dw[0, k] + t_y * dw[1, k] + t_px * sec2_x * dw[2, k] + t_py * sec2_y * dw[3, k]
@@ -304,7 +286,7 @@ def fill_load_gradient(
                 d_omega = total
                 continue
             if k >= 4:
-                total += free_slip * d_omega * motion[THETA_V, k - 3]
+                total += free_slip * d_omega * motion[at.THETA_V, k - 3]
             gradient[i, 1 + k] = total
         gradient[i, 3] += t_px * collar_xx + t_py * collar_xy
         gradient[i, 4] += t_px * collar_xy + t_py * collar_yy

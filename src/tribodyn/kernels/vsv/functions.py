@@ -9,11 +9,11 @@ from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry
 from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 from tribodyn.kernels.mebdf.drive import loop
+from tribodyn.kernels.vsv import layout as at
 from tribodyn.kernels.vsv import ledger
 from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import accelerations, accelerations_and_gradient
-from tribodyn.kernels.vsv.layout import THETA_V, VALUE
 from tribodyn.kernels.vsv.observe import observe
 
 #: Entry of the regime that is above zero once a step was accepted beyond a limit. From then on no force is a
@@ -70,7 +70,7 @@ def accept(t: float, y: FloatArray, data: VsvData, memory: VsvMemory) -> None:
     update_entry_velocity(data.joint, memory.joint, memory.joint.scratch.pose, 0.0)
     if memory.joint.scratch.report.separation_min < data.joint.surface.surfaces[0].deepest:
         memory.regime[BEYOND] = BEYOND_LAW
-    if not math.isfinite(memory.scratch.motion[THETA_V, VALUE]):
+    if not math.isfinite(memory.scratch.motion[at.THETA_V, at.VALUE]):
         memory.regime[BEYOND] = BEYOND_REACH
 
 

@@ -20,27 +20,10 @@ from tribodyn.kernels.ledger import begin as begin_works
 from tribodyn.kernels.peaks import begin as begin_peaks
 from tribodyn.kernels.peaks import note as note_peaks
 from tribodyn.kernels.peaks import resume as resume_peaks
+from tribodyn.kernels.vsv import layout as at
 from tribodyn.kernels.vsv.closure import place, vane_attitude
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, BEND_X, BEND_Y, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations
-from tribodyn.kernels.vsv.layout import (
-    BIAS,
-    E_X,
-    N_BODY,
-    O1_Z,
-    O2_Z,
-    O3_Z,
-    OV_X,
-    OV_Y,
-    PHI_X,
-    PHI_Y,
-    S1_X,
-    S1_Z,
-    THETA_A,
-    THETA_V,
-    VALUE,
-    VELOCITY,
-)
 from tribodyn.kernels.vsv.quantities import Forces, Powers, Watched
 
 
@@ -72,17 +55,19 @@ def fill_powers(y: FloatArray, memory: VsvMemory, powers: Record) -> None:
     """Fill the power of each contributor on the whole mechanism [W] from the scratch arrays."""
     scratch = memory.scratch
     motion, collar = scratch.motion, scratch.collar
-    omega_v, f_cz = motion[THETA_V, VELOCITY], scratch.f_cz
+    omega_v, f_cz = motion[at.THETA_V, at.VELOCITY], scratch.f_cz
     air = scratch.air
     sec2_x, sec2_y = scratch.secants[0], scratch.secants[1]
-    powers.work_drive = drive_moment(scratch) * motion[THETA_A, VELOCITY]
+    powers.work_drive = drive_moment(scratch) * motion[at.THETA_A, at.VELOCITY]
     powers.work_loads = (
-        air[AIR_X] * motion[OV_X, VELOCITY] + air[AIR_Y] * motion[OV_Y, VELOCITY] + air[AIR_M] * omega_v
+        air[AIR_X] * motion[at.OV_X, at.VELOCITY]
+        + air[AIR_Y] * motion[at.OV_Y, at.VELOCITY]
+        + air[AIR_M] * omega_v
     )
     powers.work_loads += sec2_x * air[BEND_X] * y[6] + sec2_y * air[BEND_Y] * y[7]
     powers.work_friction = memory.joint.scratch.report.friction_power
-    powers.work_collar_friction = f_cz * collar[THETA_V] * omega_v
-    powers.work_collar_tilt = f_cz * (collar[PHI_X] * y[6] + collar[PHI_Y] * y[7])
+    powers.work_collar_friction = f_cz * collar[at.THETA_V] * omega_v
+    powers.work_collar_tilt = f_cz * (collar[at.PHI_X] * y[6] + collar[at.PHI_Y] * y[7])
     powers.work_expansion = memory.joint.surface.reports[0].expansion_power
 
 
@@ -106,24 +91,24 @@ def fill_clearance(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     motion, collar, out = scratch.motion, scratch.collar, memory.joint.scratch.report
     fill_joint_forces(scratch.secants, out, forces)
     for j in range(4):
-        turning = motion[THETA_V, 1 + j]
+        turning = motion[at.THETA_V, 1 + j]
         loads = -scratch.wrench[4] * turning
-        for row in range(E_X):
-            loads += (scratch.force[row] - mechanism.inertia[row] * motion[row, BIAS]) * motion[row, 1 + j]
+        for row in range(at.E_X):
+            loads += (scratch.force[row] - mechanism.inertia[row] * motion[row, at.BIAS]) * motion[row, 1 + j]
         force = forces[j].view(Forces)[0]
         force.work_clearance_friction += out.M_jf * turning
         force.work_clearance_loads = loads
-        force.work_clearance_collar = scratch.f_cz * collar[THETA_V] * turning
+        force.work_clearance_collar = scratch.f_cz * collar[at.THETA_V] * turning
         here[POSITION, j], here[SPEED, j], here[MOMENTUM, j] = y[j], y[4 + j], 0.0
-    for row in range(N_BODY):
+    for row in range(at.N_BODY):
         momentum = mechanism.inertia[row] * clearance_velocity(motion, row, y)
         for j in range(4):
             here[MOMENTUM, j] += momentum * motion[row, 1 + j]
     about_x, about_y = forces[2].view(Forces)[0], forces[3].view(Forces)[0]
     about_x.work_clearance_loads += scratch.secants[0] * scratch.air[BEND_X]
     about_y.work_clearance_loads += scratch.secants[1] * scratch.air[BEND_Y]
-    about_x.work_clearance_collar += scratch.f_cz * collar[PHI_X]
-    about_y.work_clearance_collar += scratch.f_cz * collar[PHI_Y]
+    about_x.work_clearance_collar += scratch.f_cz * collar[at.PHI_X]
+    about_y.work_clearance_collar += scratch.f_cz * collar[at.PHI_Y]
 
 
 @kernel
@@ -138,9 +123,9 @@ def _fill_swing(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
     for j in range(4):
         for k in (SWING, RATE):
             swing[k, j] = (
-                air[k, AIR_X] * motion[OV_X, 1 + j]
-                + air[k, AIR_Y] * motion[OV_Y, 1 + j]
-                + air[k, AIR_M] * motion[THETA_V, 1 + j]
+                air[k, AIR_X] * motion[at.OV_X, 1 + j]
+                + air[k, AIR_Y] * motion[at.OV_Y, 1 + j]
+                + air[k, AIR_M] * motion[at.THETA_V, 1 + j]
             )
             if j > 1:
                 swing[k, j] += air[k, BEND_X if j == 2 else BEND_Y] * sec2[j]
@@ -151,9 +136,9 @@ def _fill_swing(data: VsvData, y: FloatArray, memory: VsvMemory) -> None:
 def vane_angle_with_clearance(mechanism: Record, y: FloatArray, motion: FloatArray) -> float:
     """Return θ_v [rad]; in ``paper`` it is read from the closure with the offsets e_x, e_y alone."""
     if mechanism.exact > 0.0:
-        return motion[THETA_V, VALUE]
-    s1_x, s1_z = motion[S1_X, VALUE], motion[S1_Z, VALUE]
-    return vane_attitude(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, y[0], y[1], 0.0, 0.0)[0]
+        return motion[at.THETA_V, at.VALUE]
+    s1_x, s1_z = motion[at.S1_X, at.VALUE], motion[at.S1_Z, at.VALUE]
+    return vane_attitude(mechanism, motion[at.THETA_A, at.VALUE], s1_x, s1_z, y[0], y[1], 0.0, 0.0)[0]
 
 
 @kernel
@@ -161,8 +146,8 @@ def _fill_watched(mechanism: Record, y: FloatArray, memory: VsvMemory) -> None:
     """Fill the sizes of this instant whose peaks are kept."""
     motion, watched = memory.scratch.motion, memory.peaks.values[NOW].view(Watched)[0]
     fill_watched(memory.joint.scratch.report, y, watched.joint)
-    s1_x, s1_z = motion[S1_X, VALUE], motion[S1_Z, VALUE]
-    ideal, _, _ = vane_attitude(mechanism, motion[THETA_A, VALUE], s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
+    s1_x, s1_z = motion[at.S1_X, at.VALUE], motion[at.S1_Z, at.VALUE]
+    ideal, _, _ = vane_attitude(mechanism, motion[at.THETA_A, at.VALUE], s1_x, s1_z, 0.0, 0.0, 0.0, 0.0)
     watched.mechanism.drive_moment = abs(drive_moment(memory.scratch))
     watched.mechanism.vane_angle_error = abs(vane_angle_with_clearance(mechanism, y, motion) - ideal)
 
@@ -209,7 +194,7 @@ def fill_energies(mechanism: Record, scratch: Record, energies: Record) -> None:
     """Fill kinetic and gravity energy [J] from the scratch arrays of this instant."""
     motion = scratch.motion
     energies.energy_kinetic = energies.energy_gravity = 0.0
-    for row in range(N_BODY):
-        energies.energy_kinetic += 0.5 * mechanism.inertia[row] * motion[row, VELOCITY] ** 2
-    for row in (O1_Z, O2_Z, O3_Z):
-        energies.energy_gravity -= mechanism.weight[row] * motion[row, VALUE]
+    for row in range(at.N_BODY):
+        energies.energy_kinetic += 0.5 * mechanism.inertia[row] * motion[row, at.VELOCITY] ** 2
+    for row in (at.O1_Z, at.O2_Z, at.O3_Z):
+        energies.energy_gravity -= mechanism.weight[row] * motion[row, at.VALUE]

@@ -15,34 +15,9 @@ from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import evaluate, held
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.vsv import layout as at
 from tribodyn.kernels.vsv.closure import ring_end, sinusoid, vane_attitude
 from tribodyn.kernels.vsv.data import CRANK, TIME, VsvData
-from tribodyn.kernels.vsv.layout import (
-    BIAS,
-    E_X,
-    N_X,
-    O1_X,
-    O2_X,
-    O2_Y,
-    O3_X,
-    O3_Y,
-    O3_Z,
-    OV_X,
-    OV_Y,
-    S1_X,
-    S1_Z,
-    S2_X,
-    S2_Y,
-    S2_Z,
-    S3_X,
-    S3_Y,
-    S3_Z,
-    THETA_A,
-    THETA_B,
-    THETA_V,
-    VALUE,
-    VELOCITY,
-)
 
 
 @kernel
@@ -67,7 +42,7 @@ Crank: TypeAlias = tuple[float, float, float]
 Four: TypeAlias = tuple[float, float, float, float]
 
 CENTRED: Final = (0.0, 0.0, 0.0, 0.0)  #: Place, and rates, of a trunnion in the middle of its bushing.
-SHIFTED: Final = np.array([O2_X, O2_Y, O3_X, O3_Y])
+SHIFTED: Final = np.array([at.O2_X, at.O2_Y, at.O3_X, at.O3_Y])
 SHIFTS: Final = np.array([0, 1, 0, 1])
 #: Rows that the clearance motion shifts in ``paper``, by which coordinate and by how much of it.
 SHARES: Final = np.array([0.5, 0.5, 0.5, 1.0])
@@ -83,15 +58,15 @@ def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArr
         fill_rods(mechanism, crank, (y[0], y[1], tan_x, tan_y), (y[4], y[5], y[6], y[7]), motion)
     else:
         fill_rods(mechanism, crank, CENTRED, CENTRED, motion)
-        for row in range(S3_Z + 1):
-            for column in range(1, 5 if row < E_X or row >= S1_X else 1):
+        for row in range(at.S3_Z + 1):
+            for column in range(1, 5 if row < at.E_X or row >= at.S1_X else 1):
                 motion[row, column] = 0.0
         _fill_trunnion(mechanism, y, tan_x, tan_y, motion)
         for k in range(SHIFTED.size):
             row, coordinate, share = SHIFTED[k], SHIFTS[k], SHARES[k]
             motion[row, 1 + coordinate] = share
-            motion[row, VALUE] += share * y[coordinate]
-            motion[row, VELOCITY] += share * y[4 + coordinate]
+            motion[row, at.VALUE] += share * y[coordinate]
+            motion[row, at.VELOCITY] += share * y[4 + coordinate]
     return 1.0 + tan_x * tan_x, 1.0 + tan_y * tan_y
 
 
@@ -99,22 +74,22 @@ def fill_motion(mechanism: Record, crank: Crank, y: FloatArray, motion: FloatArr
 def _fill_trunnion(mechanism: Record, y: FloatArray, tan_x: float, tan_y: float, motion: FloatArray) -> None:
     """Fill the rows of the trunnion and of the vane centre O_v."""
     for k in range(4):
-        motion[E_X + k, 1 + k] = 1.0
-        motion[E_X + k, VELOCITY] = y[4 + k]
-        motion[E_X + k, VALUE] = y[k]
+        motion[at.E_X + k, 1 + k] = 1.0
+        motion[at.E_X + k, at.VELOCITY] = y[4 + k]
+        motion[at.E_X + k, at.VALUE] = y[k]
     arm = mechanism.vane_arm
     sec2_x = 1.0 + tan_x * tan_x
     sec2_y = 1.0 + tan_y * tan_y
-    motion[OV_X, 1] = 1.0
-    motion[OV_X, 4] = arm * sec2_y
-    motion[OV_X, VELOCITY] = y[4] + arm * sec2_y * y[7]
-    motion[OV_X, BIAS] = 2.0 * arm * sec2_y * tan_y * y[7] * y[7]
-    motion[OV_X, VALUE] = y[0] + arm * tan_y
-    motion[OV_Y, 2] = 1.0
-    motion[OV_Y, 3] = arm * sec2_x
-    motion[OV_Y, VELOCITY] = y[5] + arm * sec2_x * y[6]
-    motion[OV_Y, BIAS] = 2.0 * arm * sec2_x * tan_x * y[6] * y[6]
-    motion[OV_Y, VALUE] = y[1] + arm * tan_x
+    motion[at.OV_X, 1] = 1.0
+    motion[at.OV_X, 4] = arm * sec2_y
+    motion[at.OV_X, at.VELOCITY] = y[4] + arm * sec2_y * y[7]
+    motion[at.OV_X, at.BIAS] = 2.0 * arm * sec2_y * tan_y * y[7] * y[7]
+    motion[at.OV_X, at.VALUE] = y[0] + arm * tan_y
+    motion[at.OV_Y, 2] = 1.0
+    motion[at.OV_Y, 3] = arm * sec2_x
+    motion[at.OV_Y, at.VELOCITY] = y[5] + arm * sec2_x * y[6]
+    motion[at.OV_Y, at.BIAS] = 2.0 * arm * sec2_x * tan_x * y[6] * y[6]
+    motion[at.OV_Y, at.VALUE] = y[1] + arm * tan_x
 
 
 @kernel
@@ -166,33 +141,33 @@ def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion:
         if k == 0:
             g_k -= d_x * s1_x_a + d_z * s1_z_a
         v_k = -g_k * over
-        motion[THETA_V, k] = v_k
-        motion[THETA_B, k] = b_k + b_v * v_k
-        motion[S3_X, k] = x3_k + x3_v * v_k
-        motion[S3_Y, k] = y3_k + y3_v * v_k
-        motion[S3_Z, k] = z3_k + z3_v * v_k
-    motion[THETA_A, 0] = 1.0
-    motion[S1_X, 0] = s1_x_a
-    motion[S1_Z, 0] = s1_z_a
-    for row in (THETA_A, THETA_V, THETA_B, S1_X, S1_Z, S3_X, S3_Y, S3_Z):
+        motion[at.THETA_V, k] = v_k
+        motion[at.THETA_B, k] = b_k + b_v * v_k
+        motion[at.S3_X, k] = x3_k + x3_v * v_k
+        motion[at.S3_Y, k] = y3_k + y3_v * v_k
+        motion[at.S3_Z, k] = z3_k + z3_v * v_k
+    motion[at.THETA_A, 0] = 1.0
+    motion[at.S1_X, 0] = s1_x_a
+    motion[at.S1_Z, 0] = s1_z_a
+    for row in (at.THETA_A, at.THETA_V, at.THETA_B, at.S1_X, at.S1_Z, at.S3_X, at.S3_Y, at.S3_Z):
         for k in range(5):
-            motion[row, VELOCITY] += motion[row, k] * speeds[k]
+            motion[row, at.VELOCITY] += motion[row, k] * speeds[k]
 
-    motion[THETA_A, VALUE] = theta_a
-    motion[THETA_A, BIAS] = alpha_a
-    motion[THETA_V, VALUE] = theta_v
-    motion[THETA_B, VALUE] = theta_b
-    motion[S1_X, VALUE] = s1_x
-    motion[S1_Z, VALUE] = s1_z
-    motion[S1_X, BIAS] = s1_x_a * alpha_a + mechanism.l_1 * sin_a * omega_a * omega_a
-    motion[S1_Z, BIAS] = s1_z_a * alpha_a - mechanism.l_1 * cos_a * omega_a * omega_a
-    motion[S3_X, VALUE] = x3
-    motion[S3_Y, VALUE] = y3
-    motion[S3_Z, VALUE] = z3
+    motion[at.THETA_A, at.VALUE] = theta_a
+    motion[at.THETA_A, at.BIAS] = alpha_a
+    motion[at.THETA_V, at.VALUE] = theta_v
+    motion[at.THETA_B, at.VALUE] = theta_b
+    motion[at.S1_X, at.VALUE] = s1_x
+    motion[at.S1_Z, at.VALUE] = s1_z
+    motion[at.S1_X, at.BIAS] = s1_x_a * alpha_a + mechanism.l_1 * sin_a * omega_a * omega_a
+    motion[at.S1_Z, at.BIAS] = s1_z_a * alpha_a - mechanism.l_1 * cos_a * omega_a * omega_a
+    motion[at.S3_X, at.VALUE] = x3
+    motion[at.S3_Y, at.VALUE] = y3
+    motion[at.S3_Z, at.VALUE] = z3
 
     # Accelerations with the clearance accelerations zero: first with θ̈_v = 0, then θ̈_v from the closure.
-    omega_v = motion[THETA_V, VELOCITY]
-    omega_b = motion[THETA_B, VELOCITY]
+    omega_v = motion[at.THETA_V, at.VELOCITY]
+    omega_b = motion[at.THETA_B, at.VELOCITY]
     tan_x_1 = sec2_x * phi_x_dot
     tan_y_1 = sec2_y * phi_y_dot
     tan_x_2 = 2.0 * tan_x * tan_x_1 * phi_x_dot
@@ -205,21 +180,21 @@ def fill_rods(mechanism: Record, crank: Crank, place: Four, rates: Four, motion:
         + sin_v * tan_x_2
         + cos_v * tan_y_2
     )
-    x3_1 = motion[S3_X, VELOCITY]
-    y3_1 = motion[S3_Y, VELOCITY]
-    z3_1 = motion[S3_Z, VELOCITY]
+    x3_1 = motion[at.S3_X, at.VELOCITY]
+    y3_1 = motion[at.S3_Y, at.VELOCITY]
+    z3_1 = motion[at.S3_Z, at.VELOCITY]
     b_2 = (-z3 * x3_2 + x3 * z3_2 - 2.0 * omega_b * (x3 * x3_1 + z3 * z3_1)) * inverse
-    dot_x = -s2_z * omega_b - motion[S1_X, VELOCITY]
-    dot_z = s2_x * omega_b - motion[S1_Z, VELOCITY]
+    dot_x = -s2_z * omega_b - motion[at.S1_X, at.VELOCITY]
+    dot_z = s2_x * omega_b - motion[at.S1_Z, at.VELOCITY]
     speed2 = dot_x * dot_x + y3_1 * y3_1 + dot_z * dot_z
-    ddot_x = -s2_z * b_2 - s2_x * omega_b * omega_b - motion[S1_X, BIAS]
-    ddot_z = s2_x * b_2 - s2_z * omega_b * omega_b - motion[S1_Z, BIAS]
+    ddot_x = -s2_z * b_2 - s2_x * omega_b * omega_b - motion[at.S1_X, at.BIAS]
+    ddot_z = s2_x * b_2 - s2_z * omega_b * omega_b - motion[at.S1_Z, at.BIAS]
     v_2 = -(d_x * ddot_x + d_y * y3_2 + d_z * ddot_z + speed2) * over
-    motion[THETA_V, BIAS] = v_2
-    motion[THETA_B, BIAS] = b_2 + b_v * v_2
-    motion[S3_X, BIAS] = x3_2 + x3_v * v_2
-    motion[S3_Y, BIAS] = y3_2 + y3_v * v_2
-    motion[S3_Z, BIAS] = z3_2 + z3_v * v_2
+    motion[at.THETA_V, at.BIAS] = v_2
+    motion[at.THETA_B, at.BIAS] = b_2 + b_v * v_2
+    motion[at.S3_X, at.BIAS] = x3_2 + x3_v * v_2
+    motion[at.S3_Y, at.BIAS] = y3_2 + y3_v * v_2
+    motion[at.S3_Z, at.BIAS] = z3_2 + z3_v * v_2
     _fill_bodies(mechanism, motion, s2_x, s2_z, omega_b)
 
 
@@ -228,34 +203,34 @@ def _fill_bodies(mechanism: Record, motion: FloatArray, s2_x: float, s2_z: float
     """Fill S2, the mass centres O1, O2, O3 and the direction n of the drag link."""
     o3_x, o3_z = ring_centre(mechanism, s2_x, s2_z)
     for k in range(7):
-        b_k = motion[THETA_B, k]
-        motion[S2_X, k] = -s2_z * b_k
-        motion[S2_Y, k] = motion[S3_Y, k]
-        motion[S2_Z, k] = s2_x * b_k
-        motion[O3_X, k] = -o3_z * b_k
-        motion[O3_Y, k] = motion[S3_Y, k]
-        motion[O3_Z, k] = o3_x * b_k
+        b_k = motion[at.THETA_B, k]
+        motion[at.S2_X, k] = -s2_z * b_k
+        motion[at.S2_Y, k] = motion[at.S3_Y, k]
+        motion[at.S2_Z, k] = s2_x * b_k
+        motion[at.O3_X, k] = -o3_z * b_k
+        motion[at.O3_Y, k] = motion[at.S3_Y, k]
+        motion[at.O3_Z, k] = o3_x * b_k
     centripetal = omega_b * omega_b
-    motion[S2_X, BIAS] -= s2_x * centripetal
-    motion[S2_Z, BIAS] -= s2_z * centripetal
-    motion[O3_X, BIAS] -= o3_x * centripetal
-    motion[O3_Z, BIAS] -= o3_z * centripetal
-    motion[S2_X, VALUE] = s2_x
-    motion[S2_Y, VALUE] = motion[S3_Y, VALUE]
-    motion[S2_Z, VALUE] = s2_z
-    motion[O3_X, VALUE] = o3_x
-    motion[O3_Y, VALUE] = motion[S3_Y, VALUE]
-    motion[O3_Z, VALUE] = o3_z
+    motion[at.S2_X, at.BIAS] -= s2_x * centripetal
+    motion[at.S2_Z, at.BIAS] -= s2_z * centripetal
+    motion[at.O3_X, at.BIAS] -= o3_x * centripetal
+    motion[at.O3_Z, at.BIAS] -= o3_z * centripetal
+    motion[at.S2_X, at.VALUE] = s2_x
+    motion[at.S2_Y, at.VALUE] = motion[at.S3_Y, at.VALUE]
+    motion[at.S2_Z, at.VALUE] = s2_z
+    motion[at.O3_X, at.VALUE] = o3_x
+    motion[at.O3_Y, at.VALUE] = motion[at.S3_Y, at.VALUE]
+    motion[at.O3_Z, at.VALUE] = o3_z
     over = 1.0 / mechanism.l_2
     for k in range(8):
-        at_value = 1.0 if k == VALUE else 0.0
-        s1 = (motion[S1_X, k], at_value * mechanism.l_4, motion[S1_Z, k])
+        at_value = 1.0 if k == at.VALUE else 0.0
+        s1 = (motion[at.S1_X, k], at_value * mechanism.l_4, motion[at.S1_Z, k])
         pivot = (at_value * mechanism.pivot_x, 0.0, at_value * mechanism.pivot_z)
-        motion[O1_X, k] = 0.5 * (pivot[0] + s1[0])
-        motion[O1_X + 1, k] = 0.5 * (pivot[2] + s1[2])
+        motion[at.O1_X, k] = 0.5 * (pivot[0] + s1[0])
+        motion[at.O1_X + 1, k] = 0.5 * (pivot[2] + s1[2])
         for axis in range(3):
-            motion[O2_X + axis, k] = 0.5 * (s1[axis] + motion[S2_X + axis, k])
-            motion[N_X + axis, k] = (motion[S2_X + axis, k] - s1[axis]) * over
+            motion[at.O2_X + axis, k] = 0.5 * (s1[axis] + motion[at.S2_X + axis, k])
+            motion[at.N_X + axis, k] = (motion[at.S2_X + axis, k] - s1[axis]) * over
 
 
 @kernel

@@ -7,23 +7,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from tribodyn.figures import style
 from tribodyn.figures.chart import Family
 from tribodyn.figures.pressure import draw_map
-from tribodyn.figures.style import (
-    BLUE,
-    GREY,
-    INK,
-    SMALL,
-    TEXT,
-    VERMILION,
-    caption,
-    colour_bar,
-    finish,
-    grid,
-    legend_below,
-    note,
-    sheet,
-)
 from tribodyn.mechanism.results.copies import copies_of
 from tribodyn.mechanism.sections import joints as maps
 from tribodyn.mechanism.sections.copies import COPIES, around
@@ -47,17 +33,17 @@ def draw_maps(drawn: SurfaceMap, dataset: xr.Dataset) -> Figure:
         found = [found[k] for k in sorted(largest)]
         which = f", {MOST} surfaces of {dataset.sizes[drawn.per]} with the largest values"
     names = [surface for surface, *_ in found]
-    figure, panels = grid(dataset, f"{drawn.heading}{which}", names, 2.2)
+    figure, panels = style.grid(dataset, f"{drawn.heading}{which}", names, 2.2)
     for axes, (surface, place, theta, fields) in zip(panels, found, strict=False):
         field = fields.max(axis=0)
         shown, size = drawn.unit(float(field.max()))
         mesh = draw_map(axes, laid_flat(place, theta, field[None]), field / size)
-        caption(axes, surface)
-        axes.set_xlabel("angle about the axis [°]", size=TEXT)
-        axes.set_ylabel(_along(surface), size=TEXT)
-        colour_bar(figure, mesh, axes, f"{drawn.label} [{shown}]")
+        style.caption(axes, surface)
+        axes.set_xlabel("angle about the axis [°]", size=style.TEXT)
+        axes.set_ylabel(_along(surface), size=style.TEXT)
+        style.colour_bar(figure, mesh, axes, f"{drawn.label} [{shown}]")
     if not found:
-        note(panels[0], f"no {drawn.label.removesuffix(' depth')}")
+        style.note(panels[0], f"no {drawn.label.removesuffix(' depth')}")
     return figure
 
 
@@ -66,14 +52,14 @@ def draw_hodographs(dataset: xr.Dataset) -> Figure:
     chosen = loaded_joints(dataset)
     drawn = [one for joint in chosen.joints if (one := hodograph(dataset, joint)) is not None]
     names = [one.joint for one in drawn]
-    figure, panels = grid(dataset, f"{HODOGRAPHS.title}{chosen.which}", names, 2.9)
+    figure, panels = style.grid(dataset, f"{HODOGRAPHS.title}{chosen.which}", names, 2.9)
     for axes, one in zip(panels, drawn, strict=False):
         axes.set_aspect("equal", adjustable="datalim")
-        axes.axhline(0.0, color=GREY, linewidth=0.6)
-        axes.axvline(0.0, color=GREY, linewidth=0.6)
-        axes.plot(*one.values, color=BLUE, linewidth=0.9)
-        caption(axes, one.joint)
-        finish(axes, *one.labels)
+        axes.axhline(0.0, color=style.GREY, linewidth=0.6)
+        axes.axvline(0.0, color=style.GREY, linewidth=0.6)
+        axes.plot(*one.values, color=style.BLUE, linewidth=0.9)
+        style.caption(axes, one.joint)
+        style.finish(axes, *one.labels)
     return figure
 
 
@@ -108,29 +94,29 @@ MAPS: Final = tuple(
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw at the angle of each copy a bar from its least to its largest error, and its mean."""
-    found, figure = around(dataset), sheet(dataset, COPIES.title, 4.6)
+    found, figure = around(dataset), style.sheet(dataset, COPIES.title, 4.6)
     if not found:
-        note(figure.subplots(), "nothing to draw")
+        style.note(figure.subplots(), "nothing to draw")
         return figure
     every = figure.subplots(1, len(found), squeeze=False, subplot_kw={"projection": "polar"})[0]
     for axes, one in zip(every, found, strict=True):
         n = one.angles.size
         far = np.arange(n) == one.worst
         for chosen, colour, label in (
-            (~far, BLUE, "range over time"),
-            (far, VERMILION, "furthest from the mean"),
+            (~far, style.BLUE, "range over time"),
+            (far, style.VERMILION, "furthest from the mean"),
         ):
             bars = (values[chosen] for values in (one.angles, one.low, one.high))
             axes.vlines(*bars, color=colour, lw=3.0, label=label)
-        axes.plot(one.angles, one.mean, "o", color=INK, ms=3.0, label="mean over time")
+        axes.plot(one.angles, one.mean, "o", color=style.INK, ms=3.0, label="mean over time")
         axes.set_rlim(one.middle, float(one.high.max()) + 0.05 * one.span)
         axes.set_theta_zero_location("N")
         axes.set_theta_direction(-1)
         shown = np.unique(np.linspace(0, n - 1, min(n, 12)).astype(int))
-        axes.set_xticks(one.angles[shown], [f"{one.name}[{k + 1}]" for k in shown], size=SMALL)
-        axes.tick_params(axis="y", labelsize=SMALL)
-        axes.set_xlabel(f"error [{one.unit}]", size=SMALL)
-    legend_below(figure, every[0], 3)
+        axes.set_xticks(one.angles[shown], [f"{one.name}[{k + 1}]" for k in shown], size=style.SMALL)
+        axes.tick_params(axis="y", labelsize=style.SMALL)
+        axes.set_xlabel(f"error [{one.unit}]", size=style.SMALL)
+    style.legend_below(figure, every[0], 3)
     return figure
 
 

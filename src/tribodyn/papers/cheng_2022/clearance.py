@@ -10,20 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.core.arrays import FloatArray
+from tribodyn.figures import style
 from tribodyn.figures.pressure import draw_map
-from tribodyn.figures.style import (
-    DASHED,
-    GREY,
-    INK,
-    SMALL,
-    TEXT,
-    Curves,
-    caption,
-    colour_bar,
-    finish,
-    lines,
-    sheet,
-)
 from tribodyn.papers.cheng_2022.layout import ANGLE, STYLES, by_clearance, enlarge, first_cycle, keep, limits
 from tribodyn.papers.cheng_2022.runs import (
     PaperFigure,
@@ -105,17 +93,17 @@ def attitude_data(runs: Runs, formulation: str) -> xr.Dataset:
     return keep(over_clearances(runs_of_all), *names)
 
 
-def angle_errors(dataset: xr.Dataset) -> Curves:
+def angle_errors(dataset: xr.Dataset) -> style.Curves:
     """Return the vane angle less the ideal one [deg], a curve a clearance."""
     ideal = _ideal(dataset, "theta_v")
     curves = by_clearance(dataset, "theta_v", DEGREES)
     return [(values - ideal, label, colour, dash) for values, label, colour, dash in curves]
 
 
-def speed_errors(dataset: xr.Dataset) -> Curves:
+def speed_errors(dataset: xr.Dataset) -> style.Curves:
     """Return the vane speed less the ideal one in smooth motion, mean of 0.2 s [deg/s]."""
     time = series(dataset, "time")
-    found: Curves = []
+    found: style.Curves = []
     for error, label, colour, dash in angle_errors(dataset):
         middle, rate = mean_rate(time, error, dataset)
         apart = np.append(np.diff(middle) > 0.1, False)  # no line across the impacts
@@ -129,13 +117,13 @@ def _ideal(dataset: xr.Dataset, name: str) -> FloatArray:
     return series(dataset.isel(clearance=0), f"{name}_ideal", DEGREES)
 
 
-def _legend(figure: Figure, curves: Curves) -> None:
+def _legend(figure: Figure, curves: style.Curves) -> None:
     axes = figure.axes[0]
     handles = [
         axes.plot([], [], color=colour, linestyle=dash, label=f"clearance {label}")[0]
         for _, label, colour, dash in reversed(curves)
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False, fontsize=SMALL)
+    figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False, fontsize=style.SMALL)
 
 
 def draw_motion(dataset: xr.Dataset) -> Figure:
@@ -143,22 +131,22 @@ def draw_motion(dataset: xr.Dataset) -> Figure:
 
     At the scale of the motion all curves are one; the paper enlarges, here the difference has its own panel.
     """
-    figure = sheet(dataset, "Fig. 16  Motion of the vane with different clearances", 5.8)
+    figure = style.sheet(dataset, "Fig. 16  Motion of the vane with different clearances", 5.8)
     (angle, speed), (angle_error, speed_error) = figure.subplots(2, 2, sharex=True, height_ratios=(1.0, 1.5))
     time = series(dataset, "time")
     quiet = is_smooth(dataset, time)
     _motion(angle, dataset, "theta_v", "(a) rotation angle; ideal pair dashed", "[°]")
     _motion(speed, dataset, "omega_v", "(b) rotation velocity; impacts leave the frame", "[°/s]")
     errors = angle_errors(dataset)
-    lines(angle_error, time, errors, width=1.0)
+    style.lines(angle_error, time, errors, width=1.0)
     limits(angle_error, errors, quiet)
-    finish(angle_error, "time [s]", "minus ideal [°]")
-    sizes: Curves = [
+    style.finish(angle_error, "time [s]", "minus ideal [°]")
+    sizes: style.Curves = [
         (np.abs(values), label, colour, dash) for values, label, colour, dash in speed_errors(dataset)
     ]
-    lines(speed_error, time, sizes, width=0.8)
+    style.lines(speed_error, time, sizes, width=0.8)
     _paper_speeds(speed_error)
-    finish(speed_error, "time [s]", "|minus ideal|, mean of 0.2 s [°/s]")
+    style.finish(speed_error, "time [s]", "|minus ideal|, mean of 0.2 s [°/s]")
     _legend(figure, by_clearance(dataset, "theta_v"))
     return figure
 
@@ -166,11 +154,11 @@ def draw_motion(dataset: xr.Dataset) -> Figure:
 def _motion(axes: Axes, dataset: xr.Dataset, name: str, heading: str, unit: str) -> None:
     """Draw angle or speed with every clearance, and that of the ideal pair."""
     time, ideal = series(dataset, "time"), _ideal(dataset, name)
-    lines(axes, time, by_clearance(dataset, name, DEGREES), width=1.0)
-    axes.plot(time, ideal, color=GREY, linestyle=DASHED, linewidth=1.0)
+    style.lines(axes, time, by_clearance(dataset, name, DEGREES), width=1.0)
+    axes.plot(time, ideal, color=style.GREY, linestyle=style.DASHED, linewidth=1.0)
     limits(axes, [(ideal, "", *STYLES[0])], is_smooth(dataset, time))
-    caption(axes, heading)
-    finish(axes, y_label=unit)
+    style.caption(axes, heading)
+    style.finish(axes, y_label=unit)
 
 
 def _paper_speeds(axes: Axes) -> None:
@@ -178,22 +166,22 @@ def _paper_speeds(axes: Axes) -> None:
     axes.set_yscale("log")
     axes.set_ylim(*_SPEEDS)
     for clearance, value in PAPER_SPEED_ERRORS.items():
-        axes.axhline(value, color=GREY, linewidth=0.8, linestyle=DASHED, zorder=0)
+        axes.axhline(value, color=style.GREY, linewidth=0.8, linestyle=style.DASHED, zorder=0)
         axes.annotate(
             f"the paper, {clearance} µm",
             (0.01, value),
             xycoords=("axes fraction", "data"),
             xytext=(0.0, 2.0),
             textcoords="offset points",
-            size=SMALL - 1.0,
-            color=INK,
+            size=style.SMALL - 1.0,
+            color=style.INK,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.85},
         )
 
 
 def draw_forces(dataset: xr.Dataset) -> Figure:
     """Draw Figure 17: contact, damping and rigid forces along X and Y, and the reversal beside each."""
-    figure = sheet(dataset, "Fig. 17  Forces with different clearances", 11.5)
+    figure = style.sheet(dataset, "Fig. 17  Forces with different clearances", 11.5)
     panels = figure.subplots(6, 2, sharex="col", width_ratios=(2.0, 1.0))
     time = series(dataset, "time")
     quiet = is_smooth(dataset, time)
@@ -201,34 +189,34 @@ def draw_forces(dataset: xr.Dataset) -> Figure:
     forces = product((("c", "contact"), ("d", "damping"), ("k", "rigid")), "xy")
     for (axes, beside), ((part, what), axis), letter in zip(panels, forces, "abcdef", strict=True):
         curves = by_clearance(dataset, f"F_{part}{axis}")
-        lines(axes, time, curves, width=0.9)
+        style.lines(axes, time, curves, width=0.9)
         limits(axes, curves, quiet)
         enlarge(axes, beside, time, curves, (turn - 0.001, turn + 0.012))
-        caption(axes, f"({letter}) {what}, {axis.upper()}")
-        caption(beside, "the reversal")
-        finish(axes, y_label="force [N]")
+        style.caption(axes, f"({letter}) {what}, {axis.upper()}")
+        style.caption(beside, "the reversal")
+        style.finish(axes, y_label="force [N]")
     for axes in panels[-1]:
-        axes.set_xlabel("time [s]", size=TEXT)
+        axes.set_xlabel("time [s]", size=style.TEXT)
     _legend(figure, by_clearance(dataset, "F_cx"))
     return figure
 
 
 def draw_attitude(dataset: xr.Dataset) -> Figure:
     """Draw Figure 18: trajectories of the centre, and deflection angles."""
-    figure = sheet(dataset, "Fig. 18  Attitude of the trunnion centre with different clearances", 7.4)
+    figure = style.sheet(dataset, "Fig. 18  Attitude of the trunnion centre with different clearances", 7.4)
     path, tilt = figure.subplots(2, 1, height_ratios=(1.3, 1.0))
     for (x, _, colour, dash), (y, *_) in zip(
         by_clearance(dataset, "e_x", 1e6), by_clearance(dataset, "e_y", 1e6), strict=True
     ):
         path.plot(x, y, color=colour, linestyle=dash, linewidth=0.9)
     time = series(dataset, "time")
-    lines(tilt, time, by_clearance(dataset, "phi_x", 1e3), width=1.0)
-    lines(tilt, time, by_clearance(dataset, "phi_y", 1e3), width=1.0)
+    style.lines(tilt, time, by_clearance(dataset, "phi_x", 1e3), width=1.0)
+    style.lines(tilt, time, by_clearance(dataset, "phi_y", 1e3), width=1.0)
     path.set_aspect("equal")
-    caption(path, "(a) trajectory")
-    caption(tilt, "(b) deflection φx (above) and φy")
-    finish(path, "e_x [µm]", "e_y [µm]")
-    finish(tilt, "time [s]", "deflection angle [mrad]")
+    style.caption(path, "(a) trajectory")
+    style.caption(tilt, "(b) deflection φx (above) and φy")
+    style.finish(path, "e_x [µm]", "e_y [µm]")
+    style.finish(tilt, "time [s]", "deflection angle [mrad]")
     _legend(figure, by_clearance(dataset, "e_x"))
     return figure
 
@@ -264,32 +252,34 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw a row a clearance: the worn bushing laid flat, and its deeper edge as it wears."""
-    figure = sheet(dataset, "Fig. 19  Wear depth of the bushing with different clearances", 9.6)
+    figure = style.sheet(dataset, "Fig. 19  Wear depth of the bushing with different clearances", 9.6)
     panels = figure.subplots(dataset.sizes["clearance"], 2, sharex=True, width_ratios=(1.3, 1.0))
     depth = dataset["wear_depth"].values / _PICOMETRE
     laid = unrolled(dataset, depth[:, -1], theta=dataset["theta"].values)
     for i, (plan, profile) in enumerate(panels):
         mesh = draw_map(plan, laid, depth[i, -1], float(depth.max()))
-        plan.set_ylabel(laid.label, size=TEXT)
-        caption(plan, f"({'abcde'[i]}) clearance {dataset['clearance'].values[i] * 1e6:g} µm, 400 cycles")
+        plan.set_ylabel(laid.label, size=style.TEXT)
+        style.caption(
+            plan, f"({'abcde'[i]}) clearance {dataset['clearance'].values[i] * 1e6:g} µm, 400 cycles"
+        )
         _profiles(profile, laid, depth[i])
         profile.set_ylim(0.0, 1.05 * float(depth.max()))
     for axes in panels[-1]:
-        axes.set_xlabel(ANGLE, size=TEXT)
-    colour_bar(figure, mesh, panels[:, 0], "wear depth [pm]", shrink=0.5, location="bottom")
+        axes.set_xlabel(ANGLE, size=style.TEXT)
+    style.colour_bar(figure, mesh, panels[:, 0], "wear depth [pm]", shrink=0.5, location="bottom")
     return figure
 
 
 def _profiles(axes: Axes, laid: Unrolled, depth: FloatArray) -> None:
     """Draw the depth along the deeper edge after 100 to 400 cycles."""
     edge = -1 if depth[-1, :, -1].max() >= depth[-1, :, 0].max() else 0
-    curves: Curves = []
+    curves: style.Curves = []
     for k, cycles in enumerate(CYCLES):
         curves.append((laid.turned(depth[k])[:, edge], f"{cycles} cycles", *STYLES[k]))
-    lines(axes, laid.angle, curves, width=1.0)
-    axes.legend(frameon=False, fontsize=SMALL - 1)
-    caption(axes, f"{'top' if edge else 'bottom'} edge")
-    finish(axes, y_label="depth [pm]")
+    style.lines(axes, laid.angle, curves, width=1.0)
+    axes.legend(frameon=False, fontsize=style.SMALL - 1)
+    style.caption(axes, f"{'top' if edge else 'bottom'} edge")
+    style.finish(axes, y_label="depth [pm]")
 
 
 WEAR: Final = PaperFigure("fig19", "wear depth with different clearances", data, draw)

@@ -7,21 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.figures.style import (
-    BLUE,
-    DASHED,
-    GREY,
-    INK,
-    ORANGE,
-    SMALL,
-    SOLID,
-    VERMILION,
-    caption,
-    finish,
-    legend_below,
-    lines,
-    sheet,
-)
+from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.claims.all_joints import ONE, SEVEN, means
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.layout import first_cycle, keep
@@ -43,17 +29,19 @@ def vane_data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def _angle_and_speed(dataset: xr.Dataset, title: str, angle: str, speed: str, body: str) -> Figure:
     """Draw an angle [°] and a speed [°/s] over time with an axis each."""
-    figure = sheet(dataset, title, 3.4)
+    figure = style.sheet(dataset, title, 3.4)
     left = figure.subplots()
     right = left.twinx()
     time = series(dataset, "time")
-    lines(left, time, [(series(dataset, angle, DEGREES), f"{body} angle", BLUE, SOLID)])
-    lines(right, time, [(series(dataset, speed, DEGREES), f"{body} speed", VERMILION, DASHED)])
-    finish(left, "time [s]", f"{body} angle [°]")
-    finish(right, y_label=f"{body} speed [°/s]")
+    style.lines(left, time, [(series(dataset, angle, DEGREES), f"{body} angle", style.BLUE, style.SOLID)])
+    style.lines(
+        right, time, [(series(dataset, speed, DEGREES), f"{body} speed", style.VERMILION, style.DASHED)]
+    )
+    style.finish(left, "time [s]", f"{body} angle [°]")
+    style.finish(right, y_label=f"{body} speed [°/s]")
     right.spines["right"].set_visible(True)
     right.grid(False)
-    figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=SMALL)
+    figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=style.SMALL)
     return figure
 
 
@@ -79,7 +67,7 @@ _TOGETHER: Final = "all together"
 _ADDED: Final = "the six added up"
 #: Error that section 5.3 gives for all joints [deg].
 _PAPER: Final = {CLEARANCES[0]: 0.14, CLEARANCES[-1]: 0.301}
-_LOOKS: Final = {"forward": (BLUE, -0.2, ""), "back": (ORANGE, 0.2, "///")}
+_LOOKS: Final = {"forward": (style.BLUE, -0.2, ""), "back": (style.ORANGE, 0.2, "///")}
 
 
 def data(runs: Runs, formulation: str) -> xr.Dataset:
@@ -103,13 +91,13 @@ def data(runs: Runs, formulation: str) -> xr.Dataset:
 
 def draw(dataset: xr.Dataset) -> Figure:
     """Draw a panel a clearance: a bar a joint that alone is real, their sum, and all of them real."""
-    figure = sheet(dataset, "Error of the vane angle, joint by joint", 4.4)
+    figure = style.sheet(dataset, "Error of the vane angle, joint by joint", 4.4)
     panels = figure.subplots(1, len(_ENDS), sharey=True)
     for axes, clearance in zip(panels, _ENDS, strict=True):
         _panel(axes, dataset["error"].sel(clearance=clearance), _PAPER[clearance])
-        caption(axes, f"{clearance * 1e6:g} µm in each joint")
+        style.caption(axes, f"{clearance * 1e6:g} µm in each joint")
     panels[0].invert_yaxis()
-    legend_below(figure, panels[0], 4)
+    style.legend_below(figure, panels[0], 4)
     return figure
 
 
@@ -135,15 +123,15 @@ def _panel(axes: Axes, error: xr.DataArray, paper: float) -> None:
                 xytext=(3.0, 0.0),
                 textcoords="offset points",
                 va="center",
-                size=SMALL - 1.0,
-                color=INK,
+                size=style.SMALL - 1.0,
+                color=style.INK,
             )
     one = float(error.sel(real=ONE).mean())
-    axes.axvline(SEVEN * one, color=INK, linewidth=0.9, linestyle=":", label="seven times the trunnion")
-    axes.axvline(paper, color=GREY, linewidth=0.9, linestyle="--", label="the paper's figure for all")
-    axes.axhline(len(names) - 1.5, color=GREY, linewidth=0.6)
-    finish(axes, "mean error [°]")
-    axes.set_yticks(places, [*names[:-1], _ADDED, names[-1]], size=SMALL)
+    axes.axvline(SEVEN * one, color=style.INK, linewidth=0.9, linestyle=":", label="seven times the trunnion")
+    axes.axvline(paper, color=style.GREY, linewidth=0.9, linestyle="--", label="the paper's figure for all")
+    axes.axhline(len(names) - 1.5, color=style.GREY, linewidth=0.6)
+    style.finish(axes, "mean error [°]")
+    axes.set_yticks(places, [*names[:-1], _ADDED, names[-1]], size=style.SMALL)
     axes.grid(visible=False, axis="y")
     axes.locator_params(axis="x", nbins=5)
     axes.set_xlim(0.0, 1.18 * max(SEVEN * one, paper, *error.values.ravel()))

@@ -8,11 +8,11 @@ from typing import Any, Final, NamedTuple
 
 from mebdf.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from mebdf.compiled.kernel import UNCOMPILED, Instruction, Kernel
+from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.arrays import copy
 from mebdf.kernels.core import resume
 from mebdf.kernels.jit import SOURCES, entry, kernel
-from mebdf.kernels.phases import NEED_F, NEED_JACOBIAN, STEP_ACCEPTED
 from mebdf.kernels.state import MebdfState
 
 FUN: Final = 0
@@ -92,15 +92,19 @@ def walk(state: MebdfState, calls: Calls, taken: int, limit: int) -> tuple[int, 
         t = numbers.t_eval
         if t == calls.kink[0]:
             t = calls.kink[1]
-        if request == NEED_F:
+        if request == phases.NEED_F:
             _evaluate(calls, t, rows[at.Y], rows[at.F])
-        elif request == NEED_JACOBIAN and calls.functions[JAC] == BY_DIFFERENCES:
+        elif request == phases.NEED_JACOBIAN and calls.functions[JAC] == BY_DIFFERENCES:
             _difference(calls, t, rows[at.Y], matrices[at.JACOBIAN])
-        elif request == NEED_JACOBIAN and calls.functions[JAC] != IN_PYTHON and not _is_compared(numbers.n_j):
+        elif (
+            request == phases.NEED_JACOBIAN
+            and calls.functions[JAC] != IN_PYTHON
+            and not _is_compared(numbers.n_j)
+        ):
             matrices[at.JACOBIAN].fill(0.0)
             copy(rows[at.Y], calls.work[AT])
             _call(calls.functions[JAC], t, calls.work[AT], matrices[at.JACOBIAN].reshape(-1), calls.data)
-        elif request == STEP_ACCEPTED:
+        elif request == phases.STEP_ACCEPTED:
             _note(state, calls, taken)
             taken += 1
             if taken == limit or numbers.t == numbers.t_end:

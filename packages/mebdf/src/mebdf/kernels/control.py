@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.coefficients import SCALARS
 from mebdf.kernels.elementary import power
 from mebdf.kernels.history import rescale
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.mass import weigh
-from mebdf.kernels.phases import ERROR_TEST, NEWTON, STEP
 from mebdf.kernels.state import Numbers
 
 SMALLEST_SCALE = 1.0e-300  #: Least scale, for a tolerance of zero where the solution is zero too.
@@ -111,7 +111,7 @@ def limit_step(state: Numbers, rows: FloatArray) -> None:
 @kernel
 def blame(state: Numbers, rows: FloatArray, row: int, weight: int) -> None:
     """Remember the component that contributes most to the norm of a row."""
-    state.cause = NEWTON if row == at.DELTA else ERROR_TEST
+    state.cause = phases.NEWTON if row == at.DELTA else phases.ERROR_TEST
     worst = -1.0
     for i in range(rows.shape[1]):
         size = abs(rows[row, i] * rows[weight, i])
@@ -135,7 +135,7 @@ def reject(state: Numbers, rows: FloatArray, factor: float, row: int, weight: in
     if abs(state.h) > 1.5 * LEAST_STEP * abs(state.t):
         factor = _not_too_short(state, factor)
     change_step(state, rows, factor)
-    state.phase = STEP
+    state.phase = phases.STEP
 
 
 @kernel
@@ -148,7 +148,7 @@ def newton_failed(state: Numbers, rows: FloatArray, massive: bool) -> None:
     if state.fresh == 0:
         state.factored = 0.0
         state.carried = 0
-        state.phase = STEP
+        state.phase = phases.STEP
     else:
         state.wary = min(2 * state.wary + CAUTION, MOST_CAUTION)
         state.vain += 1

@@ -30,29 +30,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray, FloatCube, FloatMatrix
+from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.coefficients import SCALARS
 from mebdf.kernels.control import LEAST_STEP, choose, limit_step, set_weights
 from mebdf.kernels.history import push, rescale
 from mebdf.kernels.jit import entry, inlined
 from mebdf.kernels.newton import iterate, start_stage
-from mebdf.kernels.phases import (
-    ACCEPT,
-    AFTER,
-    CONCLUDE,
-    CORRECT,
-    FACTORISE,
-    FACTORISED,
-    FAILED,
-    ITERATE,
-    LINEARISED,
-    NEED_JACOBIAN,
-    NO_PROGRESS,
-    START_STAGE,
-    STEP,
-    STEP_ACCEPTED,
-    STEP_TOO_SMALL,
-)
 from mebdf.kernels.renewal import begin_stages, renew_matrix, take_over
 from mebdf.kernels.start import start
 from mebdf.kernels.state import NUMBERS, Numbers
@@ -83,23 +67,23 @@ def resume(
     state, request = numbers[0], 0
     while request == 0:
         phase = state.phase
-        if phase in (ITERATE, CORRECT, CONCLUDE):
+        if phase in (phases.ITERATE, phases.CORRECT, phases.CONCLUDE):
             request = iterate(state, rows, matrices, pivots, mass, places, phase)
-        elif phase == START_STAGE:
+        elif phase == phases.START_STAGE:
             request = start_stage(state, rows, mass, places)
-        elif phase == STEP:
+        elif phase == phases.STEP:
             request = _begin_step(state, rows, mass, places)
-        elif phase == FACTORISE:
+        elif phase == phases.FACTORISE:
             request = renew_matrix(state, matrices, pivots, mass, places)
-        elif phase == FACTORISED:
+        elif phase == phases.FACTORISED:
             begin_stages(state, rows, matrices, places.size > 0)
-        elif phase == LINEARISED:
+        elif phase == phases.LINEARISED:
             request = take_over(state, rows, matrices)
-        elif phase == ACCEPT:
+        elif phase == phases.ACCEPT:
             _accept(state, rows, places)
-            request = STEP_ACCEPTED
-        elif phase == AFTER:
-            state.phase = STEP
+            request = phases.STEP_ACCEPTED
+        elif phase == phases.AFTER:
+            state.phase = phases.STEP
             choose(state, rows, mass, places)
         else:
             request = start(state, rows, mass, places)
@@ -113,12 +97,12 @@ def _begin_step(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDAr
     h = state.h
     # A whole integration that is as short as that is one step.
     if not abs(h) > LEAST_STEP * abs(state.t) and (state.last == 0 or h == 0.0):
-        state.reason = STEP_TOO_SMALL
-        return FAILED
+        state.reason = phases.STEP_TOO_SMALL
+        return phases.FAILED
     calls = state.n_f - state.f_mark
     if (state.vain >= MOST_VAIN or (state.vain > 0 and calls >= MOST_CALLS)) and _stands_still(state):
-        state.reason = NO_PROGRESS
-        return FAILED
+        state.reason = phases.NO_PROGRESS
+        return phases.FAILED
     set_weights(state, rows, mass, places)
     scaled = h * SCALARS[state.k, 0]
     state.scaled = scaled
@@ -131,9 +115,9 @@ def _begin_step(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDAr
     ):
         state.relaxation = 2.0 / (1.0 + scaled / state.factored)
         state.stage = 1
-        state.phase = START_STAGE
+        state.phase = phases.START_STAGE
         return 0
-    state.phase = FACTORISE
+    state.phase = phases.FACTORISE
     # Where every stage took one iteration, RATE is 1 for unknown: a Jacobian that costs little is renewed.
     slow = state.rate > state.settings.slow and (state.rate != 1.0 or state.differenced == 0)
     old = state.jacobian_age >= state.settings.old_jacobian or slow or state.n_j == 0
@@ -146,11 +130,11 @@ def _begin_step(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDAr
         for m in range(1, state.k + 1 if ahead else 0):
             rows[at.Y, i] += rows[at.HISTORY + m, i]
     state.t_eval = state.t + h if ahead else state.t
-    state.phase = LINEARISED
+    state.phase = phases.LINEARISED
     state.n_j += 1
     state.jacobian_age = 0
     state.fresh = 1
-    return NEED_JACOBIAN
+    return phases.NEED_JACOBIAN
 
 
 @inlined
@@ -199,4 +183,4 @@ def _accept(state: Numbers, rows: FloatArray, places: NDArray[np.int64]) -> None
     state.bad = -1
     state.worst = -1
     state.carried = state.stage > 3
-    state.phase = AFTER
+    state.phase = phases.AFTER

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.acceptance import FALSE, IN_DOUBT, OPEN, PROVED, SOLVED, judge, judge_beside_rounding
 from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
@@ -28,16 +29,6 @@ from mebdf.kernels.history import push
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.mass import is_algebraic, multiply, product
 from mebdf.kernels.matrix import magnify, solve
-from mebdf.kernels.phases import (
-    ACCEPT,
-    CONCLUDE,
-    CORRECT,
-    ITERATE,
-    NEED_F,
-    NEED_MAGNITUDE,
-    NEED_SOLUTION,
-    START_STAGE,
-)
 from mebdf.kernels.start import remember_not_finite
 from mebdf.kernels.state import Numbers
 from mebdf.kernels.turning import MIXED, TOO_FAR, WATCHED, begin_near, judge_mixture, keep_residual, look_back
@@ -57,7 +48,7 @@ def start_stage(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDAr
     _set_constant(state, rows)
     state.iteration = state.evaluated = state.between = state.halvings = 0
     state.overshot = 0.0
-    state.phase = ITERATE
+    state.phase = phases.ITERATE
     state.t_eval = state.t + (2.0 * h if stage == 2 else h)
     massive = places.size > 0
     # The slope of a stage that lies on a jump is no rate of either side.
@@ -82,7 +73,7 @@ def _ask(state: Numbers) -> int:
     """Ask for f at Y."""
     state.n_f += 1
     state.evaluated += 1
-    return NEED_F
+    return phases.NEED_F
 
 
 @inlined
@@ -137,7 +128,7 @@ def iterate(
     Where the caller solves it begins in ``phase`` ITERATE, CORRECT or CONCLUDE.
     """
     verdict = IN_DOUBT
-    if phase == ITERATE:
+    if phase == phases.ITERATE:
         if state.trouble >= TROUBLE:
             keep_residual(rows)
         if places.size == 0:
@@ -154,15 +145,15 @@ def iterate(
                 return 0
         state.n_solves += 1
         if state.outside == 1:
-            state.phase = CORRECT
-            return NEED_SOLUTION
+            state.phase = phases.CORRECT
+            return phases.NEED_SOLUTION
         solve(pivots, rows, matrices)
-    if phase != CONCLUDE:
+    if phase != phases.CONCLUDE:
         verdict = _correct(state, rows, places)
     if verdict == IN_DOUBT:
-        if phase != CONCLUDE and state.outside == 1:
-            state.phase = CONCLUDE
-            return NEED_MAGNITUDE
+        if phase != phases.CONCLUDE and state.outside == 1:
+            state.phase = phases.CONCLUDE
+            return phases.NEED_MAGNITUDE
         if state.outside == 0:
             magnify(rows, matrices, mass, places, state.scaled)
         verdict = judge_beside_rounding(state, rows, places)
@@ -176,7 +167,7 @@ def iterate(
         newton_failed(state, rows, places.size > 0)
         return 0
     state.jacobian_age += state.differenced
-    state.phase = ITERATE
+    state.phase = phases.ITERATE
     return _ask(state)
 
 
@@ -275,7 +266,7 @@ def _converging(state: Numbers, size: float) -> bool:
 def finish_stage(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> None:
     """Keep a converged stage, test the error after stage 1, accept the step after stage 3."""
     stage, weight = state.stage, error_weight(places)
-    state.phase = START_STAGE
+    state.phase = phases.START_STAGE
     state.stage = stage + 1
     if stage == 1:
         _keep(state, rows, at.Y_1, at.F_1)
@@ -287,14 +278,14 @@ def finish_stage(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDA
                 reject(state, rows, 0.5, at.STAGE_HISTORY + state.k + 1, weight)
                 return
             _copy(rows, at.Y_1, at.Y, at.F_1, at.F)
-            state.phase = ACCEPT
+            state.phase = phases.ACCEPT
     else:
         for i in range(rows.shape[1]):
             rows[at.SCRATCH, i] = rows[at.Y, i] - rows[at.Y_1, i]
         if state.fixed == 0 and norm(rows, at.SCRATCH, weight) > state.settings.disagreement:
             reject(state, rows, 0.5, at.SCRATCH, weight)
         else:
-            state.phase = ACCEPT
+            state.phase = phases.ACCEPT
 
 
 @inlined
@@ -327,7 +318,7 @@ def _test_error(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDAr
         shrink = 1.0 / (state.settings.shrink * power(error, 1.0 / (k + 1)))
         reject(state, rows, min(0.9, max(0.1, shrink)), at.STAGE_HISTORY + k + 1, weight)
     elif state.last == 1:
-        state.phase = ACCEPT
+        state.phase = phases.ACCEPT
 
 
 @inlined

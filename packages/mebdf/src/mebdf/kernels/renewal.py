@@ -17,27 +17,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.arrays import copy
 from mebdf.kernels.control import newton_failed
 from mebdf.kernels.jit import inlined, kernel
 from mebdf.kernels.matrix import factorise
-from mebdf.kernels.phases import (
-    FACTORISE,
-    FACTORISED,
-    FAILED,
-    JACOBIAN_NOT_FINITE,
-    NEED_FACTORS,
-    SINGULAR,
-    START_STAGE,
-)
 from mebdf.kernels.state import Numbers
 
 
 @kernel
 def take_over(state: Numbers, rows: FloatArray, matrices: FloatArray) -> int:
     """Keep a new Jacobian if it is finite, and the one before it."""
-    state.phase = FACTORISE
+    state.phase = phases.FACTORISE
     state.trust, state.reached = 0.0, math.inf
     for i in range(rows.shape[1]):
         rows[at.SEEN, i] = 0.0
@@ -53,8 +45,8 @@ def take_over(state: Numbers, rows: FloatArray, matrices: FloatArray) -> int:
             copy(matrices[at.JACOBIAN, i], matrices[at.LAST_JACOBIAN, i])
     state.back = 0
     if state.finite == 0 and state.n_j == 1:
-        state.reason = JACOBIAN_NOT_FINITE
-        return FAILED
+        state.reason = phases.JACOBIAN_NOT_FINITE
+        return phases.FAILED
     return 0
 
 
@@ -72,9 +64,9 @@ def renew_matrix(
     state.rate = 1.0
     state.matrix_age = 0
     state.n_lu += 1
-    state.phase = FACTORISED
+    state.phase = phases.FACTORISED
     if state.outside == 1:
-        return NEED_FACTORS
+        return phases.NEED_FACTORS
     state.trace_of_j = 0.0
     for i in range(matrices.shape[1]):
         state.trace_of_j += matrices[at.LAST_JACOBIAN, i, i]
@@ -97,16 +89,16 @@ def begin_stages(state: Numbers, rows: FloatArray, matrices: FloatArray, massive
     An old Jacobian is renewed first; where the newest one is outgrown the one before it follows, then none.
     """
     state.stage = 1
-    state.phase = START_STAGE
+    state.phase = phases.START_STAGE
     if state.sign == 0:
         newton_failed(state, rows, massive)
-        state.cause = SINGULAR
+        state.cause = phases.SINGULAR
     elif state.back < 2 and _is_outgrown(state, rows.shape[1], massive):
         if state.fresh == 0:
             newton_failed(state, rows, massive)
             return
         state.back += 1
-        state.phase = FACTORISE
+        state.phase = phases.FACTORISE
         for i in range(matrices.shape[1]):
             copy(matrices[at.PREVIOUS_JACOBIAN, i], matrices[at.LAST_JACOBIAN, i])
             if state.back == 2 and not massive:

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
+from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.control import norm, set_weights
 from mebdf.kernels.jit import kernel
-from mebdf.kernels.phases import BEGIN, FAILED, FIRST_F, NEED_F, NOT_FINITE, SECOND_F, STEP
 from mebdf.kernels.state import Numbers
 
 #: Shortest first step relative to the time: 16 or more spacings between numbers.
@@ -20,25 +20,25 @@ SHORTEST: Final = 16.0 * float(np.finfo(np.float64).eps)
 @kernel
 def start(state: Numbers, rows: FloatArray, mass: FloatArray, places: NDArray[np.int64]) -> int:
     """Go through the phases before the first step; return what is needed, 0 when it can begin."""
-    if state.phase == BEGIN:
+    if state.phase == phases.BEGIN:
         set_weights(state, rows, mass, places)
-        return _ask(state, rows, 0.0, FIRST_F)
-    if state.phase == FIRST_F:
+        return _ask(state, rows, 0.0, phases.FIRST_F)
+    if state.phase == phases.FIRST_F:
         if remember_not_finite(state, rows):
-            state.reason = NOT_FINITE
-            return FAILED
+            state.reason = phases.NOT_FINITE
+            return phases.FAILED
         first = at.F_2 if places.size > 0 else at.F_1
         for i in range(rows.shape[1]):
             rows[first, i] = rows[at.F, i]
         if state.h == 0.0:
             state.h = _trial_step(state, rows)
-            return _ask(state, rows, state.direction * state.h, SECOND_F)
+            return _ask(state, rows, state.direction * state.h, phases.SECOND_F)
     else:
         state.h = _first_step(state, rows, places)
     state.h = max(state.h, _least(state)) * state.direction
     for i in range(rows.shape[1]):
         rows[at.HISTORY + 1, i] = state.h * rows[at.F_1, i]
-    state.phase = STEP
+    state.phase = phases.STEP
     return 0
 
 
@@ -52,7 +52,7 @@ def _ask(state: Numbers, rows: FloatArray, h: float, phase: int) -> int:
     state.t_eval = state.t + h
     state.phase = phase
     state.n_f += 1
-    return NEED_F
+    return phases.NEED_F
 
 
 @kernel

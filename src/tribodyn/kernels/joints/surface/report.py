@@ -9,21 +9,9 @@ from tribodyn.kernels.extremes import larger, smaller
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.columns import APPROACH, AREA, FRACTION, INTERVAL, PART, PRESSURE, RIGID
 from tribodyn.kernels.joints.pressure import fill_pressures, weighted_sum
-from tribodyn.kernels.joints.surface import ring_report
+from tribodyn.kernels.joints.surface import listed, ring_report
 from tribodyn.kernels.joints.surface.data import SurfaceData, is_ring, table_of
 from tribodyn.kernels.joints.surface.jacobian import LEAST_SQUARE, add_columns, fill_forces, slip_square
-from tribodyn.kernels.joints.surface.listed import (
-    CLIPPED,
-    FORCE,
-    HEAT,
-    NORMAL,
-    PLASTIC,
-    POWER,
-    SLIDING,
-    SLIP,
-    SLIP_SQUARE,
-    TOUCHING,
-)
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import gather, node_gap, rewind
 from tribodyn.kernels.lookup import stored_energy
@@ -82,7 +70,7 @@ def _keep(memory: SurfaceMemory, at: int, n: int) -> None:
     """Keep the sliding of the list and the nodes that it belongs to, from place ``at`` on."""
     work, node = memory.scratch.listed.work, memory.scratch.listed.node
     for k in range(n):
-        memory.sliding[at + k] = work[SLIDING + k]
+        memory.sliding[at + k] = work[listed.SLIDING + k]
         memory.touched[at + k] = node[k]
 
 
@@ -126,17 +114,17 @@ def _fill_terms(surface: Record, work: FloatArray, n: int, out: Record) -> float
     highest, nearest = out.p_max, math.inf
     for k in range(min(n, PART)):
         place, p, rigid = work[INTERVAL + k] + work[FRACTION + k], work[PRESSURE + k], work[RIGID + k]
-        slip_2 = work[SLIP_SQUARE + k]
+        slip_2 = work[listed.SLIP_SQUARE + k]
         highest = larger(highest, p)
         nearest = smaller(nearest, place)
-        work[SLIDING + k] = p * math.sqrt(slip_2)
+        work[listed.SLIDING + k] = p * math.sqrt(slip_2)
         work[RIGID + k] = work[AREA + k] * rigid
-        work[HEAT + k] = (p - rigid) * work[APPROACH + k]
-        work[POWER + k] = -mu * p * slip_2 / math.sqrt(slip_2 + square)
+        work[listed.HEAT + k] = (p - rigid) * work[APPROACH + k]
+        work[listed.POWER + k] = -mu * p * slip_2 / math.sqrt(slip_2 + square)
         touching = 1.0 if place < onset else 0.0
-        work[TOUCHING + k] = touching
-        work[CLIPPED + k] = touching if p <= 0.0 else 0.0
-        work[PLASTIC + k] = 1.0 if p >= surface.hardness else 0.0
+        work[listed.TOUCHING + k] = touching
+        work[listed.CLIPPED + k] = touching if p <= 0.0 else 0.0
+        work[listed.PLASTIC + k] = 1.0 if p >= surface.hardness else 0.0
     out.p_max = highest
     return nearest
 
@@ -145,14 +133,14 @@ def _fill_terms(surface: Record, work: FloatArray, n: int, out: Record) -> float
 def _add_sums(surface: Record, scratch: Record, n: int, out: Record) -> None:
     """Add the sums over the ``n`` nodes in the list."""
     work = scratch.listed.work
-    add_columns(work, FORCE, NORMAL, n, -1.0, scratch.normal)
-    add_columns(work, RIGID, NORMAL, n, -1.0, scratch.rigid)
-    add_columns(work, FORCE, SLIP, n, -surface.friction_coefficient, scratch.friction)
-    out.damping_power += weighted_sum(work, AREA, HEAT, n)
-    out.friction_power += weighted_sum(work, AREA, POWER, n)
-    out.contact_fraction += weighted_sum(work, AREA, TOUCHING, n)
-    out.tensile_clip_share += weighted_sum(work, AREA, CLIPPED, n)
-    out.plastic_share += weighted_sum(work, AREA, PLASTIC, n)
+    add_columns(work, listed.FORCE, listed.NORMAL, n, -1.0, scratch.normal)
+    add_columns(work, RIGID, listed.NORMAL, n, -1.0, scratch.rigid)
+    add_columns(work, listed.FORCE, listed.SLIP, n, -surface.friction_coefficient, scratch.friction)
+    out.damping_power += weighted_sum(work, AREA, listed.HEAT, n)
+    out.friction_power += weighted_sum(work, AREA, listed.POWER, n)
+    out.contact_fraction += weighted_sum(work, AREA, listed.TOUCHING, n)
+    out.tensile_clip_share += weighted_sum(work, AREA, listed.CLIPPED, n)
+    out.plastic_share += weighted_sum(work, AREA, listed.PLASTIC, n)
 
 
 @kernel

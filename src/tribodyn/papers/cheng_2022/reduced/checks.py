@@ -7,17 +7,7 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanisms.self_checks import (
-    ENERGY_LIMIT,
-    LIFT_OFF_LIMIT,
-    TIGHTEN,
-    of_contact,
-    of_damping_pressure,
-    of_lift_off,
-    of_load,
-    of_reversals,
-    of_steps,
-)
+from tribodyn.mechanisms import self_checks
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
 from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
@@ -113,16 +103,16 @@ def warnings(
     share = lift_off_share(found, t_end)
     messages = [
         _energy_message(vsv, whole, clearance),
-        *of_contact(
+        *self_checks.of_contact(
             vsv.joint.touch,
             separation=found["separation_least"],
             clipped=found["tensile_clip_time"] / t_end if t_end > 0.0 else 0.0,
             grid_error=found["grid_force_error"],
             grid=(vsv.joint.grid.theta, vsv.joint.grid.z),
         ),
-        *of_load(found, when),
-        of_lift_off(share) if share > LIFT_OFF_LIMIT else "",
-        *of_steps(statistics),
+        *self_checks.of_load(found, when),
+        self_checks.of_lift_off(share) if share > self_checks.LIFT_OFF_LIMIT else "",
+        *self_checks.of_steps(statistics),
     ]
     return [message for message in messages if message]
 
@@ -139,8 +129,8 @@ def notes(
     share = lift_off_share(found, t_end)
     messages = [
         "" if vsv.exact else f"T{GAINS_ENERGY.format(vsv.formulation)[1:]}.",
-        of_lift_off(share) if 0.0 < share <= LIFT_OFF_LIMIT else "",
-        of_damping_pressure(pressure, found["pressure_at_rest"]),
+        self_checks.of_lift_off(share) if 0.0 < share <= self_checks.LIFT_OFF_LIMIT else "",
+        self_checks.of_damping_pressure(pressure, found["pressure_at_rest"]),
         _of_reversals(vsv, t_end, turns, carried),
     ]
     return [message for message in messages if message]
@@ -157,7 +147,7 @@ def _of_reversals(vsv: Vsv, t_end: float, turns: FloatArray, carried: bool) -> s
     cycle = run_segments(vsv, period)
     ends = cycle.segments.direction[[0, -1]]
     every = cycle.turns if ends[0] == ends[1] else np.concatenate([[0.0], cycle.turns])
-    return of_reversals(every, turns, period=period, t_end=t_end, carried=carried)
+    return self_checks.of_reversals(every, turns, period=period, t_end=t_end, carried=carried)
 
 
 def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
@@ -167,11 +157,11 @@ def _energy_message(vsv: Vsv, whole: float, clearance: float) -> str:
             "Energy could not be accounted for to the end: on its way the motion went through a state that "
             "the mechanism cannot have. Do not use what follows the last finite energy_residual."
         )
-    if max(whole, clearance) <= ENERGY_LIMIT:
+    if max(whole, clearance) <= self_checks.ENERGY_LIMIT:
         return ""
     numbers = f"Energy is missed: {100 * whole:.2g} % of the whole mechanism's, {100 * clearance:.2g} % of"
     if vsv.exact:
-        return f"{numbers} the clearance motion's. {TIGHTEN}"
+        return f"{numbers} the clearance motion's. {self_checks.TIGHTEN}"
     return (
         f"{numbers} the clearance motion's. The paper's equations do not come from one virtual work, so "
         "their energy balance cannot close; mechanism.formulation = 'exact' does."

@@ -7,19 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from tribodyn.kernels.vsv.data import (
-    AIR_M,
-    AIR_X,
-    AIR_Y,
-    AIR_Z,
-    BEND_X,
-    BEND_Y,
-    CRANK_ANGLE,
-    CRANK_SPEED,
-    TIME,
-    VANE,
-    VANE_SPEED,
-)
+from tribodyn.kernels.vsv import data as at
 from tribodyn.mechanisms.shaft_loads import Term, parts_of, shaft_terms
 
 if TYPE_CHECKING:
@@ -27,16 +15,16 @@ if TYPE_CHECKING:
     from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 _TARGETS: Final = {
-    0: (AIR_X, 1.0),
-    1: (AIR_Y, 1.0),
-    2: (AIR_Z, 1.0),
-    3: (BEND_X, 1.0),
-    4: (BEND_Y, -1.0),
-    5: (AIR_M, 1.0),
+    0: (at.AIR_X, 1.0),
+    1: (at.AIR_Y, 1.0),
+    2: (at.AIR_Z, 1.0),
+    3: (at.BEND_X, 1.0),
+    4: (at.BEND_Y, -1.0),
+    5: (at.AIR_M, 1.0),
 }
 _FOLLOWED: Final = {
-    "vane": {"times": TIME, "angles": VANE, "speeds": VANE_SPEED},
-    "crank": {"times": TIME, "angles": CRANK_ANGLE, "speeds": CRANK_SPEED},
+    "vane": {"times": at.TIME, "angles": at.VANE, "speeds": at.VANE_SPEED},
+    "crank": {"times": at.TIME, "angles": at.CRANK_ANGLE, "speeds": at.CRANK_SPEED},
 }
 
 
@@ -64,7 +52,7 @@ def _of_table(case: VsvCase, load: VaneLoad, vane_arm: float) -> Iterator[Term]:
         parts_of(load, _FOLLOWED[load.along], case.period, case.duration),
         _TARGETS,
         arm=arm,
-        angle=VANE,
+        angle=at.VANE,
         follower=load.frame == "body",
         against=load.opposes,
     )

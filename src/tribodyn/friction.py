@@ -9,8 +9,9 @@ torque drives the motor back, and Q = 0 if both torques have the same sign.
 
 The usual models are special cases: Coulomb and viscous friction (F_c, F_v), Stribeck friction (also F_s,
 w_s, a), load-dependent friction (k_m = k_e) and friction that depends on the direction of power (k_m and k_e
-apart). The complete law is model M6 of M. Duclusaud, G. Passault, V. Padois, O. Ly, "Extended Friction
-Models for the Physics Simulation of Servo Actuators", IEEE ICRA 2025.
+apart). Joints have their friction themselves, see ``kernels.joints``. The complete law is model M6 of M.
+Duclusaud, G. Passault, V. Padois, O. Ly, "Extended Friction Models for the Physics Simulation of Servo
+Actuators", IEEE ICRA 2025.
 """
 
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
+
+__all__ = ["FrictionLimit", "stribeck_share"]
 
 
 def stribeck_share(speed: FloatArray, stribeck_speed: float, exponent: float = 2.0) -> FloatArray:
