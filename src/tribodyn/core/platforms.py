@@ -13,7 +13,6 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -166,6 +165,8 @@ _PACKAGES: Final = ("tribodyn", "numpy", "scipy")
 @cache
 def version(package: str) -> str:
     """Return the version of an installed package."""
+    from importlib import metadata  # which `--help` does without
+
     return metadata.version(package)
 
 
@@ -177,12 +178,16 @@ def provenance() -> dict[str, str]:
 
 def unexpected(error: BaseException) -> str:
     """Return words for an error that nobody foresaw, or for packages with versions that are too old."""
+    from importlib import metadata
+
     fault = f"internal error, please report it: {type(error).__name__}: {error}"
     return "; ".join(_not_as_declared(metadata.requires("tribodyn") or ())) or fault
 
 
 def _not_as_declared(requirements: Iterable[str]) -> Iterator[str]:
     """Yield a sentence for each package that is not installed as required."""
+    from importlib import metadata
+
     from packaging.requirements import Requirement  # where something failed, and nowhere else
 
     for needed in map(Requirement, requirements):

@@ -38,8 +38,7 @@ def lines(stream: BinaryIO, source: str) -> Iterator[Line]:
     number = start = 0
     while content := stream.readline(LONGEST_LINE):
         if len(content) == LONGEST_LINE:
-            words = f"line {number + 1} has {LONGEST_LINE} characters or more"
-            raise InputError(words, source=source)
+            raise InputError(f"line {number + 1} has {LONGEST_LINE} characters or more", source=source)
         for text in _decoded(content, start, source).splitlines():
             number += 1
             if text and not text.isspace():

@@ -82,7 +82,7 @@ for key, value, said in (("reference_pressure", "0 MPa", "> 0"), ("decay", 11.0,
 shorter = case.replace({"run.duration": "2 ms"})
 assert 'reference_pressure = "3 MPa"' in shorter.to_toml()
 result = td.simulate(shorter)
-assert float(result["p_max"].max()) > 0.0
+assert float(result["pressure_max"].max()) > 0.0
 """
 
 CHART = """

@@ -94,8 +94,7 @@ def _constant(case: MechanismCase, name: str) -> tuple[float, float]:
         load.frame == "ground" and not one.axes and one.signal().kind == "constant" for load, _, one in sizes
     )
     if not (sizes and alone and steady and not case.springs):
-        words = 'its load does not follow from the case: give one, such as "200 N"'
-        raise InputError(words, key="load")
+        raise InputError('its load does not follow from the case: give one, such as "200 N"', key="load")
     for load, key, signal in sizes:
         total += (signal.value or 0.0) * np.array(load.shares(key)[:3])
     x, y, _ = dense.product(total, frame(*axes_of(case, joint))).tolist()

@@ -80,8 +80,9 @@ def stribeck(
     """
     oiled = case.oiled if isinstance(case, MechanismCase) else []
     if not oiled:
-        words = "a Stribeck curve needs a shaft in oil: journal-oil, or a joint with a film"
-        raise InputError(words, key="case")
+        raise InputError(
+            "a Stribeck curve needs a shaft in oil: journal-oil, or a joint with a film", key="case"
+        )
     if joint not in oiled and (joint or len(oiled) > 1):
         raise InputError(f"given {as_given(joint)}; joints with a film: {', '.join(oiled)}", key="joint")
     name = joint or oiled[0]

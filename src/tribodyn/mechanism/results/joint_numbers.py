@@ -79,7 +79,8 @@ def _rate_at_peak(effort: str, other: str, dataset: xr.Dataset, joints: slice) -
     where = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     power = settled(dataset, column(dataset, "drive_power")[:, joints])[where]
     both = settled(dataset, column(dataset, other)[:, joints])[where]
-    return math.nan if both or not values[where] else readings.above_zero(float(abs(power / values[where])))
+    nothing = both or abs(values[where]) < readings.NOTHING
+    return math.nan if nothing else round(float(abs(power / values[where])), 20)
 
 
 #: Numbers for the size of motors and actuators, by name.
