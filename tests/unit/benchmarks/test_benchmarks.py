@@ -9,7 +9,8 @@ import pytest
 
 from benchmarks.__main__ import BY_HAND, NAMES
 
-LASTING = ("long_run", "vsv", "workbench")  #: These take many seconds even so.
+#: These take many seconds even so; some compile kernels that the library lacks.
+LASTING = ("joint_kernel", "kinks", "long_run", "ring", "vsv", "workbench")
 
 
 @pytest.mark.parametrize(
