@@ -22,7 +22,7 @@ def test_an_error_that_nobody_foresaw_is_to_be_reported() -> None:
 def test_packages_that_are_too_old_are_named_instead(
     monkeypatch: pytest.MonkeyPatch, required: str, said: str
 ) -> None:
-    monkeypatch.setattr("tribodyn.core.platforms.metadata.requires", lambda name: [required])
+    monkeypatch.setattr("importlib.metadata.requires", lambda name: [required])
     message = platforms.unexpected(AttributeError("trapezoid"))
     assert said in message
     assert message.startswith("internal error") == (not said)
