@@ -13,6 +13,7 @@ from tribodyn.joints.clearances import Clearance, places
 from tribodyn.joints.shapes import Cylinder
 from tribodyn.mechanism.results import mechanism_checks as general_checks
 from tribodyn.mechanism.results.contacts import Contacts
+from tribodyn.mechanisms import self_checks
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.self_checks import (
     AREA_LIMIT,
@@ -191,7 +192,7 @@ def test_a_clearance_that_rough_surfaces_fill_is_said(
 
 def test_a_run_that_took_no_step_is_silent_about_steps() -> None:
     nothing: dict[str, Any] = {"steps": 0, "rejected": 0, "restarts": 0}
-    assert not any(checks.of_steps(nothing))
+    assert not any(self_checks.of_steps(nothing))
 
 
 def notes(
