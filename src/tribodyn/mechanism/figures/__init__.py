@@ -16,7 +16,7 @@ FIGURES: Final[dict[str, Family]] = {
         mechanism.FAMILY,
         mechanism.MODE_SHAPES,
         *map(chart.family, CHARTS),
-        joints.FAMILY,
+        joints.COPIES_FIGURE,
         joints.HODOGRAPHS,
         pressure.family(ORBITS),
         *joints.MAPS,

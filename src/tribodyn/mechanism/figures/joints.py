@@ -92,7 +92,7 @@ MAPS: Final = tuple(
 )
 
 
-def draw(dataset: xr.Dataset) -> Figure:
+def draw_copies(dataset: xr.Dataset) -> Figure:
     """Draw at the angle of each copy a bar from its least to its largest error, and its mean."""
     found, figure = around(dataset), style.sheet(dataset, COPIES.title, 4.6)
     if not found:
@@ -120,11 +120,11 @@ def draw(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-FAMILY: Final = Family(
+COPIES_FIGURE: Final = Family(
     name=COPIES.still,
     title=COPIES.title,
     caption=COPIES.caption,
     needs=COPIES.needs,
-    draw=draw,
+    draw=draw_copies,
     shows=lambda dataset: bool(copies_of(dataset)),
 )
