@@ -34,7 +34,7 @@ KINDS = (*SHAPES, *POINTS, *ELASTIC)
 BALLS = ("sphere", "ball", "sphere at a point")
 STENCIL = np.arange(-3.0, 4.0)
 WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
-#: A hundred-thousandth of what changes pressure by about e, and of v_min; see ``test_joint_jacobian.py``.
+#: A hundred-thousandth of what changes pressure by about e, and of v_min.
 STEP = np.repeat([1.6e-11, 1.6e-9, 1e-7, 1e-5], 3)
 
 

@@ -9,7 +9,6 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.interpolate import CubicHermiteSpline
 
 from tribodyn.contact import law
 from tribodyn.joints.bushing import joint_report, joint_wrench
@@ -51,13 +50,6 @@ def test_untilted_trunnion_is_a_line_integral(make_joint, table_1_pair, depth, d
     # Pushed back along the line of centres, to the error of the table (1e-6) and of the fine grid.
     np.testing.assert_allclose(wrench[:2], -force * push, rtol=0.0, atol=2e-6 * force)
     np.testing.assert_allclose(wrench[2:], 0.0, atol=1e-12 * force)
-
-
-def test_a_centred_trunnion_in_a_wide_clearance_feels_nothing(make_joint):
-    # 20 µm are 12 σ, beyond the contact law's 8.
-    y = state(rates=(1e-3, -2e-3, 0.1, 0.2))
-    assert not joint_wrench(make_joint().data(), y, omega=0.3).any()
-    assert seen(make_joint().data(), y)["separation_min"] == pytest.approx(C)
 
 
 def test_a_centred_trunnion_in_a_narrow_clearance_is_pushed_evenly(make_joint):
@@ -116,130 +108,6 @@ def test_friction_moment_of_the_paper(make_joint, table_1_pair, sign):
     load = line_load(table_1_pair, eccentricity, lambda theta: 1.0)
     assert found["M_jf"] == pytest.approx(sign * 0.1 * R_B * load, rel=2e-6)
     assert (found["F_fx"], found["F_fy"], found["M_fx"], found["M_fy"]) == (0.0, 0.0, 0.0, 0.0)
-
-
-def node_by_node(joint, y, omega, sign, entry, wear):
-    """Return the wrench as plain sums over all nodes, in array form, see ``docs/theory/joint.md``."""
-    e_x, e_y, phi_x, phi_y, v_x, v_y, w_x, w_y = y
-    z, theta = joint.z[:, None], joint.theta
-    cos, sin = np.cos(theta), np.sin(theta)
-    mu, r_j, r_b = joint.friction.coefficient, joint.geometry.radius, joint.geometry.bore_radius
-    lean = -np.tan(phi_y) * cos - np.tan(phi_x) * sin
-    lean_rate = -w_y / np.cos(phi_y) ** 2 * cos - w_x / np.cos(phi_x) ** 2 * sin
-    gap = joint.geometry.clearance + (e_x - z * np.tan(phi_y)) * cos + (e_y - z * np.tan(phi_x)) * sin + wear
-    gap = gap - 0.5 * r_j * lean**2
-    v_a, v_b = v_x - z * w_y / np.cos(phi_y) ** 2, v_y - z * w_x / np.cos(phi_x) ** 2
-    approach = -(v_a * cos + v_b * sin) + r_j * lean * lean_rate
-    table = joint.table
-    knots = np.linspace(table.h_first, table.h_last, table.nodes.shape[0])
-    h_star = gap / joint.roughness
-    reached = h_star <= table.h_last
-    rigid, damping = (
-        reached
-        * CubicHermiteSpline(knots, table.nodes[:, k], table.nodes[:, k + 1] * table.inverse_step)(h_star)
-        for k in (0, 2)
-    )
-    reference = np.where(entry > 0.0, entry, np.maximum(np.abs(approach), joint.entry.minimum_velocity))
-    pressure = rigid + damping * approach / reference
-    if joint.entry.tensile_clip:
-        pressure = np.maximum(pressure, 0.0)
-    area = joint.node_area[:, None]
-    if joint.friction.model == "traction":
-        slip = omega * r_j + v_a * sin - v_b * cos
-        tau = -mu * pressure * slip / np.hypot(slip, joint.friction.slip_velocity)
-        f_x, f_y = area * (pressure * cos + tau * sin), area * (pressure * sin - tau * cos)
-        torque = (area * r_j * tau).sum()
-    else:
-        f_x, f_y = area * pressure * cos, area * pressure * sin
-        torque = sign * mu * r_b * (area * pressure).sum()
-    shift = r_j * lean * area * pressure
-    moments = (shift * sin - z * f_y).sum(), (shift * cos - z * f_x).sum()
-    return np.array([f_x.sum(), f_y.sum(), *moments, torque])
-
-
-def random_state(random, clearance, sigma):
-    tilt = 75.0 * clearance * random.uniform(-1.0, 1.0, 2)
-    eccentricity = clearance - random.uniform(-1.0, 6.0) * sigma - 0.01 * np.hypot(*tilt)
-    angle = random.uniform(0.0, 2.0 * np.pi)
-    rates = random.uniform(-1.0, 1.0, 4) * [3e-3, 3e-3, 0.3, 0.3]
-    return np.array([eccentricity * np.cos(angle), eccentricity * np.sin(angle), *tilt, *rates])
-
-
-@pytest.mark.parametrize("clip", [True, False])
-@pytest.mark.parametrize("friction", ["traction", "moment"])
-@pytest.mark.parametrize("clearance", [20e-6, 40e-6, 5e-6])
-def test_window_and_row_sums_lose_nothing(make_joint, clearance, friction, clip):
-    joint = make_joint(clearance, friction=friction, clip=clip, grid=(36, 6))
-    random = np.random.default_rng(1)
-    for _ in range(20):
-        y = random_state(random, clearance, joint.roughness)
-        entry = random.choice([0.0, 1e-3, 4e-3], size=joint.field_shape)
-        wear = 2e-6 * random.random(joint.field_shape)
-        omega, sign = random.uniform(-0.4, 0.4), random.choice([-1.0, 1.0])
-        expected = node_by_node(joint, y, omega, sign, entry, wear)
-        found = joint_wrench(joint.data(wear), y, omega=omega, sign=sign, entry_velocity=entry)
-        # A node at the very end of the table may fall in or out by rounding; it carries 1e-11 of the rest.
-        scale = np.hypot(*expected[:2]) * np.array([1.0, 1.0, LENGTH, LENGTH, R_J])
-        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11 * scale.max() + 1e-9)
-        parts = seen(joint.data(wear), y, omega=omega, sign=sign, entry=entry)
-        sums = [("F_cx", "F_fx"), ("F_cy", "F_fy"), ("M_jcx", "M_fx"), ("M_jcy", "M_fy")]
-        total = [parts[normal] + parts[friction_part] for normal, friction_part in sums]
-        np.testing.assert_allclose([*total, parts["M_jf"]], found, rtol=1e-12, atol=1e-12)
-
-
-def turned(y, angle):
-    """Return the state turned about Z and the rotation; the axis leans to −(tan φ_y, tan φ_x)."""
-    rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    lean = rotation @ np.tan(y[[3, 2]])
-    lean_rate = rotation @ (y[[7, 6]] / np.cos(y[[3, 2]]) ** 2)
-    phi = np.arctan(lean)
-    phi_rate = lean_rate * np.cos(phi) ** 2
-    return np.concatenate([rotation @ y[:2], phi[::-1], rotation @ y[4:6], phi_rate[::-1]]), rotation
-
-
-@pytest.mark.parametrize(
-    ("angle", "agree"),
-    [(2.0 * math.pi * 7 / 96, 1e-10), (math.pi / 96.0, 1e-3), (0.5, 1e-3)],
-    ids=["onto nodes", "between nodes", "anywhere"],
-)
-def test_the_grid_has_no_preferred_direction(make_joint, angle, agree):
-    # Turned by whole nodes nothing changes; by a part of one, no more than the error of the grid.
-    joint = make_joint()
-    random = np.random.default_rng(2)
-    for _ in range(10):
-        y = random_state(random, C, joint.roughness)
-        y[4:] *= 1e-2
-        again, rotation = turned(y, angle)
-        here = joint_wrench(joint.data(), y, omega=0.2)
-        there = joint_wrench(joint.data(), again, omega=0.2)
-        expected = np.concatenate([rotation @ here[:2], (rotation @ here[[3, 2]])[::-1], here[4:]])
-        scale = np.hypot(*here[:2]) * np.array([1.0, 1.0, LENGTH / 2, LENGTH / 2, R_J])
-        np.testing.assert_array_less(np.abs(there - expected), agree * scale + 1e-9)
-
-
-def test_uniform_wear_is_clearance(make_joint):
-    depth = 3e-6
-    joint, wider = make_joint(20e-6), make_joint(23e-6)
-    y = state(17e-6, 9e-6, 2e-4, -1e-4, rates=(1e-3, 0.0, 0.01, 0.0))
-    worn = joint_wrench(joint.data(np.full(joint.field_shape, depth)), y, omega=0.2)
-    expected = joint_wrench(wider.data(), y, omega=0.2)
-    # The wider bushing also has the wider bore; its area is that of the kernel.
-    np.testing.assert_allclose(worn / R_B, expected / (R_J + 23e-6), rtol=1e-12)
-
-
-def test_wear_relieves_only_where_it_is(make_joint):
-    joint = make_joint()
-    y = state(-19e-6)
-    whole = joint_wrench(joint.data(), y)
-    depth = np.zeros(joint.field_shape)
-    depth[:, 40:56] = 5e-6  # opposite to the contact at θ = 0
-    np.testing.assert_array_equal(joint_wrench(joint.data(depth), y), whole)
-    depth = np.zeros(joint.field_shape)
-    depth[joint.z > 0.0] = 50e-6
-    half = joint_wrench(joint.data(depth), y)
-    assert half[0] == pytest.approx(0.5 * whole[0], rel=1e-12)
-    # What is left carries at z < 0: M_y = −∬z dF_x > 0, with the arm l_z/4.
-    assert half[3] == pytest.approx(0.25 * LENGTH * half[0], rel=5e-3)  # Gauss nodes of half an interval
 
 
 def test_peaks_are_taken_at_the_edges(make_joint, table_1_pair):

@@ -17,10 +17,7 @@ from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.parameters import Lengths, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
-from tribodyn.papers.cheng_2022.reduced.reach import closure, ideal_vane_angle
 from tribodyn.simulation import simulate
-
-LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))
 
 #: Forward, a reversal at π, and backward; a switch that is not its own image; ringing followed closely.
 CASE = {
@@ -56,43 +53,6 @@ def seen_in_a_mirror(name: str, values: FloatArray) -> FloatArray:
     if name.startswith("theta_v"):
         return math.pi - values
     return -values if name in TURNED else values
-
-
-def test_the_loop_closes_where_its_image_does() -> None:
-    theta_a = np.linspace(-0.5, 0.5, 11)[:, None]
-    theta_v = np.linspace(-1.0, 4.0, 51)
-    missing = closure(LENGTHS, theta_a, theta_v) - closure(image(LENGTHS), -theta_a, np.pi - theta_v)
-    # Rounding of lengths of half a metre, squared.
-    np.testing.assert_allclose(missing, 0.0, atol=1e-15)
-
-
-def test_the_image_is_assembled_as_the_original() -> None:
-    random = np.random.default_rng(4)
-    closed = 0
-    for _ in range(300):
-        l_1, l_2, l_3, l_4, l_m = random.uniform([0.02, 0.08, 0.2, 0.02, 0.3], [0.08, 0.25, 0.6, 0.08, 0.7])
-        gamma, phi = random.uniform(-math.pi, math.pi, 2)
-        lengths = Lengths(l_1, l_2, l_3, l_4, 0.16, l_m, gamma, phi)
-        theta_a = random.uniform(-math.pi, math.pi, 20)
-        here, there = ideal_vane_angle(lengths, theta_a), ideal_vane_angle(image(lengths), -theta_a)
-        closed += int(np.isfinite(here).sum())
-        # Where the assemblies are about to merge the angle is the square root of a rounding error.
-        np.testing.assert_allclose(np.exp(1j * there), np.exp(1j * (math.pi - here)), atol=1e-6)
-    assert closed > 200
-
-
-def test_an_assembly_is_never_left_on_the_way() -> None:
-    """Over all crank angles, those with a crank end on either side of the ring's arm among them."""
-    lengths = replace(LENGTHS, l_1=0.06, l_2=0.11, gamma=np.radians(30.0))
-    crank = np.linspace(-math.pi, math.pi, 4001)
-    arm = np.array([math.sin(lengths.phi), math.cos(lengths.phi)])
-    s1_x = lengths.l_m * math.cos(lengths.gamma) - lengths.l_1 * np.sin(crank)
-    s1_z = lengths.l_m * math.sin(lengths.gamma) + lengths.l_1 * np.cos(crank)
-    vane = ideal_vane_angle(lengths, crank)
-    side = (s1_x * arm[1] - s1_z * arm[0])[np.isfinite(vane)]
-    assert side.min() < 0.0 < side.max()
-    # The crank goes in steps of 1.6 mrad, and the vane much faster only near a merger, which ends the range.
-    assert np.nanmax(np.abs(np.diff(vane))) < 0.1
 
 
 @pytest.mark.parametrize("formulation", ["exact", "paper"])

@@ -44,12 +44,6 @@ def assert_close(found, expected):
     assert (np.abs(found - expected).max(axis=1) / scale).max() < ROUNDING
 
 
-def test_the_table_lists_the_coordinates_of_the_positions(coordinate_names):
-    rows = {name.lower(): value for name, value in vars(layout).items() if name.lower() in coordinate_names}
-    assert sorted(rows, key=rows.__getitem__) == coordinate_names
-    assert len(coordinate_names) == layout.N_ROWS
-
-
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("seed", range(4))
 def test_values(make_vsv, make_positions, formulation, seed):

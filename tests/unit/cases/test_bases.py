@@ -6,7 +6,6 @@ import pytest
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import parse_case
 
 
 def test_a_variant_changes_some_keys_of_its_base(tmp_path: Path) -> None:
@@ -61,11 +60,3 @@ def test_an_error_in_a_base_names_the_base(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         td.load_case(tmp_path / "mine.toml")
     assert caught.value.source == str(tmp_path / "base.toml")
-
-
-def test_a_text_without_a_file_names_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The workbench and stored results are such texts: they must not read files."""
-    monkeypatch.chdir(tmp_path)
-    Path("base.toml").write_text('case = "vsv"\n', encoding="utf-8")
-    with pytest.raises(InputError, match="allowed"):
-        parse_case('case = "base.toml"\n', "page")

@@ -4,10 +4,9 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pydantic import ValidationError
 
 import tribodyn as td
-from tribodyn.cases import Case, Key, keys_of
+from tribodyn.cases import Key, keys_of
 from tribodyn.cases.keys import ANY_NAME
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import built_in, kinds, parse_case
@@ -107,13 +106,6 @@ def test_built_in_cases_load_and_read_back(name: str) -> None:
     assert case.duration > 0.0
 
 
-@pytest.mark.parametrize("name", built_in())
-def test_models_alone_give_the_same_defaults_as_loading(name: str) -> None:
-    entry = built_in()[name]
-    if not entry.given:
-        assert entry.model() == td.load_case(name)  # type: ignore[call-arg]
-
-
 def test_defaults_are_those_of_the_tables() -> None:
     case: Any = CASE
     assert case.surfaces.bushing.hardness == 492e6
@@ -135,12 +127,6 @@ def test_formulation_decides_defaults_unless_they_are_given() -> None:
     assert back == CASE
 
 
-def test_a_resolved_file_keeps_what_it_says() -> None:
-    written = CASE.to_toml().replace('formulation = "exact"', 'formulation = "paper"')
-    case: Any = parse_case(written, "case.toml")
-    assert (case.joint.friction, case.run.start) == ("traction", "equilibrium")
-
-
 def test_duration_takes_the_place_of_cycles_and_back() -> None:
     short = parse_case(CASE.to_toml(), "case.toml").replace({"run.duration": "3 s"})
     assert short.at("run.cycles") is None
@@ -158,28 +144,6 @@ def test_cases_are_frozen() -> None:
         del case.joint
 
 
-def test_replace_leaves_the_original_alone() -> None:
-    wide = CASE.replace({"joint.clearance": "30 um"})
-    assert wide.at("joint.clearance") == 30e-6
-    assert CASE.at("joint.clearance") == 20e-6
-    assert wide != CASE
-    assert wide.replace({"joint.clearance": "0.02 mm"}) == CASE
-
-
-def test_cases_travel_between_processes() -> None:
-    wide = CASE.replace({"joint.clearance": "30 um"})
-    again = pickle.loads(pickle.dumps(wide))
-    assert again == wide
-    assert again.replace({"joint.clearance": "20 um"}) == CASE
-
-
-def test_surfaces_reach_the_contact_law() -> None:
-    pair = CASE.surface_pair  # type: ignore[attr-defined]
-    # model.md, section 2: check values of the surfaces of Table 1, given to four digits.
-    assert pair.composite_modulus == pytest.approx(7.818e9, rel=1e-4)
-    assert pair.roughness_rms == pytest.approx(1.634e-6, rel=5e-4)
-
-
 def test_crank_range_covers_the_swing_of_a_whole_cycle_only_if_it_is_run() -> None:
     low, high = CASE.crank.crank_range(CASE.duration)  # type: ignore[attr-defined]
     assert high - low == pytest.approx(0.6981317007977318)
@@ -195,58 +159,12 @@ def test_the_crank_may_set_out_backwards_but_must_move() -> None:
     assert caught.value.key == "drive.speed_amplitude"
 
 
-def test_comments_fit_on_a_screen() -> None:
-    assert max(map(len, CASE.to_toml(comments=True).splitlines())) <= 140
-
-
 @pytest.mark.parametrize("name", ["friction_coefficient", "minimum_entry_velocity", "onset_separation"])
 def test_assumed_values_are_flagged(name: str) -> None:
     lines = CASE.to_toml(comments=True).splitlines()
     at = next(i for i, line in enumerate(lines) if line.startswith(name))
     # A comment that is too long for its line stands above it.
     assert "ASSUMED" in lines[at] + lines[at - 1] * lines[at - 1].startswith("#")
-
-
-TABLES = {
-    "surfaces.trunnion": "young_modulus poisson_ratio roughness",
-    "surfaces.bushing": "young_modulus poisson_ratio roughness hardness",
-    "asperities": "density radius surface",
-    "contact": "law damping_factor restitution",
-    "joint": "clearance radius length collar_radius friction_coefficient friction",
-    "mechanism": "crank_length pivot_angle crank_mass crank_inertia formulation",
-    "drive": "start_angle speed_amplitude angular_frequency",
-    "loads": "air_force_x air_force_y air_moment",
-    "wear": "specific_wear_rate paper_hardness_divisor cycles",
-    "solver": "name rtol",
-    "solver.atol": "position",
-    "solver.grid": "theta z",
-    "run": "cycles duration start output_interval",
-}
-
-
-def test_a_case_file_has_the_tables_it_is_known_for() -> None:
-    wanted = {f"{table}.{name}" for table, names in TABLES.items() for name in names.split()}
-    assert wanted <= set(keys_of(type(CASE)))
-
-
-def test_the_kind_of_a_case_cannot_be_replaced() -> None:
-    with pytest.raises(InputError, match="case"):
-        CASE.replace({"case": "other"})
-
-
-def test_models_check_values_without_a_file() -> None:
-    from tribodyn.cases.joint_keys import PlainJoint
-
-    with pytest.raises(ValidationError):
-        PlainJoint(clearance=-1.0)
-    with pytest.raises(ValidationError):
-        PlainJoint(slack=1.0)  # type: ignore[call-arg]
-    with pytest.raises(InputError, match="a tenth of"):
-        PlainJoint(clearance=1e-3)
-
-
-def test_every_case_is_a_case() -> None:
-    assert all(issubclass(entry.model, Case) for entry in built_in().values())
 
 
 def test_a_campaign_needs_whole_cycles_and_a_pressure() -> None:
@@ -273,13 +191,6 @@ def test_inertias_of_rods_follow_their_mass_and_length() -> None:
     assert case.mechanism.drag_link_inertia == CASE.at("mechanism.drag_link_inertia")
     given = {"mechanism.vane_mass": "0.5 kg", "mechanism.vane_inertia": "5e-3 kg m^2"}
     assert CASE.replace(given).at("mechanism.vane_inertia") == 5e-3
-
-
-def test_a_value_of_ones_own_is_never_called_assumed() -> None:
-    shown = CASE.replace({"joint.friction_coefficient": 0.2}).to_toml(comments=True)
-    (line,) = (line for line in shown.splitlines() if line.startswith("friction_coefficient"))
-    assert line.endswith("default 0.1, ASSUMED")
-    assert "friction_coefficient = 0.2" in line
 
 
 def test_all_faults_are_told_at_once() -> None:

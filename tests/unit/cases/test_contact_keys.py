@@ -33,19 +33,6 @@ def test_a_factor_without_restitution_is_refused() -> None:
     assert caught.value.key == "contact.restitution"
 
 
-def test_options_reach_the_law() -> None:
-    case = changed(law="linear", penalty_stiffness="7 MPa/um")
-    assert case.contact.law_of(case.surface_pair).penalty_stiffness == pytest.approx(7e12)
-    case = changed(law="gw", separation_from="surface")
-    assert case.contact.law_of(case.surface_pair).separation_from == "surface"
-
-
-def test_another_law_of_the_same_case_is_not_damped_without_a_restitution() -> None:
-    case = changed(law="rsdc")
-    other = case.contact.model_copy(update={"law": "ke"})
-    assert other.law_of(case.surface_pair).damping_factor == "none"
-
-
 def test_what_the_surfaces_cannot_have_is_found_before_a_run() -> None:
     with pytest.raises(InputError) as caught:
         changed(law="gw", damping_factor="calibrated", restitution=0.7, design_pressure="1 TPa")

@@ -2,11 +2,9 @@ import tomllib
 from itertools import chain
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tribodyn.cases import Key, keys_of
-from tribodyn.cases.keys import ValueProblem, shown, toml_string
+from tribodyn.cases.keys import ValueProblem
 from tribodyn.mechanisms.catalogue import built_in
 
 #: Keys of each built-in case; together some five thousand.
@@ -36,12 +34,6 @@ def test_every_default_reads_back_from_what_is_written(case: str) -> None:
     with_default = [key for key in KEYS[case] if key.default is not None]
     assert with_default
     assert [key.path for key in with_default if not reads_back(key)] == []
-
-
-def test_keys_of_a_table_come_before_its_sub_tables() -> None:
-    paths = list(keys_of(built_in()["vsv"].model))
-    assert paths[:2] == ["case", "title"]
-    assert paths.index("solver.rtol") < paths.index("solver.atol.position") < paths.index("run.cycles")
 
 
 @pytest.mark.parametrize(
@@ -99,14 +91,3 @@ def test_every_quantity_asks_for_its_unit(number: object) -> None:
         if key.kind == "quantity":
             with pytest.raises(ValueProblem, match="unit is missing"):
                 key.read(number, text=True)
-
-
-@given(st.text(st.characters(codec="utf-8")))
-def test_strings_are_written_as_toml(value: str) -> None:
-    assert tomllib.loads(f"key = {toml_string(value)}")["key"] == value
-
-
-@given(st.one_of(st.text(), st.integers(), st.floats(), st.booleans(), st.just({}), st.just([])))
-def test_messages_quote_any_value_on_one_short_line(value: object) -> None:
-    assert len(shown(value)) <= 60
-    assert shown(value).isprintable()

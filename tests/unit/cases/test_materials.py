@@ -7,8 +7,6 @@ from tribodyn.cases.case import Case, with_entries
 from tribodyn.cases.materials import MATERIALS, OF_PAIR, OF_SURFACE, wear_scatter
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.results import summarise
-from tribodyn.simulation import check
 
 LINER = {"surfaces.bushing.material": "ptfe-liner"}
 BRONZE = {"surfaces.bushing.material": "bronze-c93200"}
@@ -121,13 +119,6 @@ def test_surfaces_that_leave_the_paper_behind_are_told(changes: dict[str, str], 
     case = td.load_case("vsv")
     assert case.remarks().warnings == ()
     assert any(words in text for text in case.replace(changes).remarks().warnings)
-
-
-def test_a_run_tells_it_too() -> None:
-    short = {"surfaces.bushing.roughness": "2 um", "run.duration": "1 ms", "run.output_interval": "1 ms"}
-    case = td.load_case("vsv").replace(short)
-    assert "asperities are still those" in " ".join(summarise(td.simulate(case))["warnings"])
-    assert "asperities are still those" in " ".join(check(case))
 
 
 PTFE = {"surfaces.bushing.material": "ptfe"}

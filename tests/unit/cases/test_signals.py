@@ -126,12 +126,6 @@ def test_a_table_takes_the_place_of_a_value_and_back(folder: Path) -> None:
     assert again == parsed('force = "3 N"')
 
 
-def test_straight_lines_have_a_kink_at_every_row() -> None:
-    case = parsed('force = { times = "0, 1, 2 s", values = "0, 1, 0 N", interpolation = "linear" }')
-    assert list(signal(case).kinks) == [0.0, 1.0, 2.0]
-    assert signal(case).coefficients[:2].any() == False  # noqa: E712
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -203,15 +197,3 @@ def test_a_vector_is_a_list_or_one_text(given: str) -> None:
 )
 def test_what_is_no_vector_is_refused(given: str, words: str) -> None:
     assert words in refused(f"point = {given}")
-
-
-def test_a_key_that_must_be_given_says_so() -> None:
-    with pytest.raises(InputError, match=r"loads.gas.mass: this key is missing.*2 kg"):
-        parse('case = "toy"\n[loads.gas]\nbetween = ["a", "b"]\n', "toy.toml", {"toy": Toy})
-
-
-def test_tables_that_may_be_left_out_are_shown_once() -> None:
-    shown = parsed("").to_toml(comments=True)
-    assert shown.count("# [loads.NAME.force]") == 1
-    assert "[loads.gas.force]" not in shown
-    assert "# [loads.NAME.force]" not in parsed('force = "1 N"').to_toml(comments=True)

@@ -1,20 +1,15 @@
 """Tables that a user names: read, written, changed, swept and documented by dotted paths like all others."""
 
-import copy
-import pickle
 from collections.abc import Mapping
 from typing import Any, Literal
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from tribodyn.cases import Case, keys_in, keys_of
+from tribodyn.cases import Case
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import choice, number, quantity, tables, text
 from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
-from tribodyn.studies.plan import make_plan
 
 
 class Faces(Group):
@@ -99,25 +94,11 @@ def test_what_is_written_reads_back(source: str, comments: bool) -> None:
     assert again.to_toml() == case.to_toml()
 
 
-def test_all_tables_of_one_name_stand_together() -> None:
-    tables = [line for line in parsed().to_toml().splitlines() if line.startswith("[joints")]
-    names = ("wrist", "crankpin", "main-1")
-    assert tables == [f"[joints.{name}{sub}]" for name in names for sub in ("", ".faces")]
-
-
 def test_show_explains_tables_that_a_case_has_none_of() -> None:
     shown = parsed(SOURCE.split("[springs")[0]).to_toml(comments=True)
     assert "# [springs.NAME]\n" in shown
     assert "# [springs.NAME.ends.NAME]\n# stiffness = 1 " in shown
     assert "# [joints.NAME]" not in shown
-
-
-def test_the_order_of_names_is_no_difference() -> None:
-    blocks = ('[joints.a]\nclearance = "30 um"\n', "[joints.b]\n")
-    one, other = (parsed('case = "toy"\n' + "".join(order)) for order in (blocks, blocks[::-1]))
-    assert one == other
-    assert hash(one) == hash(other)
-    assert one != parsed('case = "toy"\n[joints.a]\n[joints.b]')
 
 
 def test_values_are_changed_by_dotted_path() -> None:
@@ -129,10 +110,6 @@ def test_values_are_changed_by_dotted_path() -> None:
     assert list(wide.joints) == list(case.joints)
     assert case.joints["crankpin"].clearance == 20e-6
     assert wide.replace({"joints.crankpin.clearance": "20 um", "springs.s.ends.right.stiffness": 1}) == case
-
-
-def test_empty_tables_outlive_a_change() -> None:
-    assert "main-1" in parsed().replace({"gravity": "0 m/s^2"}).joints
 
 
 REFUSED = {
@@ -171,13 +148,6 @@ def test_names_are_bare_keys_of_limited_length(name: str) -> None:
         parsed('case = "toy"\n[joints."crank pin"]\nclearance = "30 um"')
 
 
-@given(st.from_regex(r"[A-Za-z0-9_-]{1,40}", fullmatch=True))
-def test_any_bare_key_is_a_name(name: str) -> None:
-    case = parsed(f'case = "toy"\n[joints.{name}]\nclearance = "30 um"')
-    assert case.at(f"joints.{name}.clearance") == 30e-6
-    assert parsed(case.to_toml()) == case
-
-
 WRONG = {
     'clearance = "30 kg"': ("clearance", "allowed: a number with a unit of length"),
     'clearance = "0 m"': ("clearance", "allowed: a number with a unit of length, > 0"),
@@ -202,35 +172,3 @@ def test_a_value_in_the_place_of_a_table_is_refused() -> None:
     with pytest.raises(InputError, match="this is a table, not a value") as caught:
         parsed('case = "toy"\njoints.pin = 3')
     assert caught.value.key == "joints.pin"
-
-
-def test_named_tables_are_frozen_and_travel_between_processes() -> None:
-    case = parsed()
-    for change in (
-        lambda: case.joints.update(pin=Joint()),
-        lambda: case.joints.pop("wrist"),
-        lambda: case.joints.__setitem__("pin", Joint()),
-    ):
-        with pytest.raises(TypeError, match="frozen"):
-            change()
-    for again in (pickle.loads(pickle.dumps(case)), copy.deepcopy(case)):
-        assert again == case
-        assert again.replace({"joints.wrist.clearance": "20 um"}).joints["wrist"] == Joint()
-
-
-def test_keys_are_known_before_and_after_tables_have_names() -> None:
-    assert "joints.*.faces.gap" in keys_of(Toy)
-    keys = keys_in(parsed())
-    assert {path for path in keys if path.endswith(".gap")} == {
-        f"joints.{name}.faces.gap" for name in ("wrist", "crankpin", "main-1")
-    }
-    assert keys["springs.s.ends.left.stiffness"].description == "share of the stiffness"
-    assert not any("*" in path for path in keys)
-
-
-def test_named_tables_are_swept() -> None:
-    plan = make_plan(parsed(), {"joints.crankpin.clearance": "20,40 um"})
-    assert [point.changes["joints.crankpin.clearance"] for point in plan.points] == ["20 um", "40 um"]
-    assert [parsed(point.toml).joints["crankpin"].clearance for point in plan.points] == [20e-6, 40e-6]
-    with pytest.raises(InputError, match=r"nearest valid one is joints.crankpin.clearance"):
-        make_plan(parsed(), {"joints.crankpn.clearance": "20,40 um"})

@@ -40,11 +40,6 @@ def test_what_is_missing_is_said_once_and_with_its_place() -> None:
     assert said.count("needed") == 1
 
 
-def test_a_cold_case_is_as_it_was() -> None:
-    case = td.load_case("vsv")
-    assert case.temperature.dimensions(case.joint, case.surfaces).clearance == case.joint.clearance
-
-
 def test_a_material_follows_its_table() -> None:
     case = td.load_case("vsv").replace(EXPANSIONS | HOT | TABLE)
     assert case.surfaces.bushing.young_modulus == pytest.approx(4e9, rel=1e-12)

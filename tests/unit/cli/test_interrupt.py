@@ -6,26 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cli.interrupt import Interruption, end, last_words, on_leaving, signals_heard
+from tribodyn.cli.interrupt import Interruption, last_words, on_leaving, signals_heard
 
 NUMBERS = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-IN_A_CALLBACK = """
-import os, signal, sys, time, weakref
-from tribodyn.cli import interrupt
-
-class Thing: pass
-
-def gone(reference):
-    # What a handler raises here is printed and lost.
-    os.kill(os.getpid(), signal.SIGTERM)
-    time.sleep(0.1)
-
-with interrupt.signals_heard():
-    thing = Thing()
-    reference = weakref.ref(thing, gone)
-    del thing
-    print("went on")
-"""
 
 WITH_WORKERS = """
 import os, signal
@@ -64,13 +47,6 @@ def test_the_first_signal_asks_and_the_second_leaves(
     assert signal.getsignal(number) is before
 
 
-@NUMBERS
-def test_where_nobody_has_asked_yet_there_is_nothing_to_save(number: signal.Signals, leaving: None) -> None:
-    with signals_heard(), Interruption() as stop:
-        assert status_of(number) == 1
-    assert not stop.requested
-
-
 def test_leaving_tidies_up_and_says_what_is_kept(leaving: None, capfd: pytest.CaptureFixture[str]) -> None:
     done: list[str] = []
 
@@ -84,18 +60,6 @@ def test_leaving_tidies_up_and_says_what_is_kept(leaving: None, capfd: pytest.Ca
         assert status_of(signal.SIGTERM) == 1
     assert done == ["tidy"]
     assert capfd.readouterr().err == "\ntribodyn: µ is kept\n"
-
-
-def test_after_the_work_a_signal_changes_nothing(leaving: None, capfd: pytest.CaptureFixture[str]) -> None:
-    with signals_heard():
-        end(0)
-        assert status_of(signal.SIGINT) == 0
-    assert capfd.readouterr().err == ""
-
-
-def test_a_signal_in_a_callback_of_the_interpreter_is_not_lost() -> None:
-    done = subprocess.run([sys.executable, "-c", IN_A_CALLBACK], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (1, "", "\ntribodyn: aborted; nothing was saved\n")
 
 
 def test_python_shutting_down_does_not_turn_success_into_a_kill() -> None:

@@ -20,13 +20,6 @@ def test_lines_come_at_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:
     assert lines[-1].startswith("100 %  12 of 12 s simulated")
 
 
-def test_quiet_shows_nothing(capsys: pytest.CaptureFixture[str]) -> None:
-    with progress(1.0, Console(quiet=True)) as shown:
-        shown(1.0)
-        shown.note("news")
-    assert capsys.readouterr() == ("", "")
-
-
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True

@@ -73,17 +73,6 @@ def test_a_run_leaves_everything_and_says_where(
     assert os.path.join("results-vsv", "report.html") in captured.out
 
 
-def test_the_directory_is_named_after_the_file(
-    in_empty_directory: Path, simulation: Callable[..., None]
-) -> None:
-    simulation()
-    Path("wide.toml").write_text('case = "vsv"\n', encoding="utf-8")
-    assert main(["run", "wide.toml"]) == 0
-    assert (in_empty_directory / "results-wide" / "result.nc").exists()
-    assert main(["run", "vsv", "-o", "deep/er"]) == 0
-    assert (in_empty_directory / "deep" / "er" / "result.nc").exists()
-
-
 def test_json_is_all_there_is_on_stdout(
     in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -215,25 +204,6 @@ def test_pictures_that_fail_do_not_lose_the_result(
     assert Path("results-vsv/result.nc").exists()
 
 
-def test_an_interrupt_while_drawing_keeps_the_result(
-    in_empty_directory: Path,
-    simulation: Callable[..., None],
-    capfd: pytest.CaptureFixture[str],
-    leaving: None,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
-        os.kill(os.getpid(), signal.SIGTERM)
-
-    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
-    simulation()
-    with pytest.raises(SystemExit) as left:
-        main(["run", "vsv"])
-    assert left.value.code == 1
-    assert "interrupted while drawing" in capfd.readouterr().err
-    assert Path("results-vsv/result.nc").exists()
-
-
 def test_report_draws_stored_results_again(
     in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -243,15 +213,6 @@ def test_report_draws_stored_results_again(
     assert main(["report", "out"]) == 0
     assert Path("out/report.html").read_text(encoding="utf-8") == "new"
     assert "report.html" in capsys.readouterr().out
-
-
-def test_results_are_replaced(in_empty_directory: Path, simulation: Callable[..., None]) -> None:
-    simulation()
-    assert main(["run", "vsv", "-o", "out"]) == 0
-    Path("out/notes.txt").write_text("mine", encoding="utf-8")
-    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um", "--force"]) == 0
-    assert 'clearance = "40 um"' in Path("out/case.toml").read_text(encoding="utf-8")
-    assert Path("out/notes.txt").read_text(encoding="utf-8") == "mine"
 
 
 CAMPAIGN = ["run", "vsv", "--set", "wear.cycles=400", "-o", "out"]
@@ -337,15 +298,6 @@ def test_a_finished_result_of_another_case_is_spared(
     assert 'clearance = "40 um"' in (in_empty_directory / "out" / "case.toml").read_text(encoding="utf-8")
 
 
-def test_what_is_left_of_a_failed_run_is_overwritten(
-    in_empty_directory: Path, simulation: Callable[..., None]
-) -> None:
-    simulation(lambda stop: "it stopped")
-    assert main(["run", "vsv", "-o", "out"]) == 1
-    simulation()
-    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]) == 0
-
-
 @pytest.mark.parametrize("value", ["'40 um'", '"40 um"', "40 um", " '40um' "])
 def test_quotes_left_around_a_value_are_taken_off(
     value: str, in_empty_directory: Path, simulation: Callable[..., None]
@@ -367,40 +319,3 @@ def test_figures_and_report_can_be_left_out(
     assert main(["run", "vsv", "-o", "out", "--no-figures"]) == 0
     assert not Path("out/figures").exists()
     assert Path("out/report.html").exists()
-
-
-def test_the_numbers_come_before_the_pictures(
-    in_empty_directory: Path,
-    simulation: Callable[..., None],
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    told = []
-    monkeypatch.setattr(
-        tribodyn.report, "write", lambda dataset, path: told.append(capsys.readouterr().out) or path.touch()
-    )
-    simulation()
-    assert main(["run", "vsv"]) == 0
-    assert "Contact force" in told[0]
-    assert capsys.readouterr().out.startswith("look at")
-
-
-@pytest.mark.parametrize("processors", [1, 2])
-def test_two_processes_share_the_figures_and_one_makes_up_for_the_other(
-    processors: int, in_empty_directory: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from tribodyn.cli import pictures
-
-    monkeypatch.setattr("tribodyn.core.platforms.processors", lambda: processors)
-    here = os.getpid()
-
-    def draw_all(dataset: xr.Dataset, directory: Path, part: slice) -> None:
-        if part.start == 1 and processors == 2 and os.getpid() != here:
-            raise MemoryError
-        for name in list("abcde")[part]:
-            (directory / name).touch()
-
-    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
-    Path("figures").mkdir()
-    pictures.draw(xr.Dataset(), in_empty_directory, page=False)
-    assert sorted(path.name for path in Path("figures").iterdir()) == list("abcde")

@@ -78,24 +78,6 @@ def test_the_help_of_a_command_ends_with_an_example_that_is_understood(
     assert main([name, *arguments]) == 0
 
 
-def test_version(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as caught:
-        main(["--version"])
-    assert caught.value.code == 0
-    assert capsys.readouterr().out.startswith("tribodyn ")
-
-
-def test_a_command_imports_no_other_command() -> None:
-    program = (
-        "import sys\nfrom tribodyn.cli.main import COMMANDS, main\nmain(['new'])\n"
-        "print([name for name in COMMANDS if f'tribodyn.cli.commands.{name}' in sys.modules])"
-    )
-    output = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=True
-    ).stdout
-    assert output.splitlines()[-1] == "['new', 'completion']"
-
-
 def test_the_package_itself_is_light() -> None:
     program = (
         "import sys, tribodyn\n"

@@ -55,21 +55,6 @@ def test_the_block_is_what_a_case_takes_from_the_file(scan: Path, capsys: pytest
     assert main(["check", "mine.toml"]) == 0
 
 
-def test_json_is_one_document(scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    given = ["--modulus", "7.8 GPa", "--hardness", "492 MPa", "--json"]
-    assert main(["surface", "scan.csv", *given]) == 0
-    out, err = capsys.readouterr()
-    document = json.loads(out)
-    assert document["plasticity_index"] > 1.0
-    assert document["warnings"]
-    assert "give a short cut-off" in err
-
-
-def test_quiet_prints_warnings_only(scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["surface", "scan.csv", "--short-cutoff", SHORT, "--quiet"]) == 0
-    assert capsys.readouterr() == ("", "")
-
-
 def test_level_filter_and_cut_offs_are_used(scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
     def sigma(*options: str) -> float:
         assert main(["surface", "scan.csv", "--json", *options]) == 0

@@ -13,7 +13,6 @@ import xarray as xr
 import tribodyn.figures
 import tribodyn.report
 from tribodyn.cli.main import main
-from tribodyn.cli.pictures import draw_points
 
 SWEEP = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,25 um"]
 ON_TLS = ["--vary", "joint.clearance=20 um", "--scheduler", "tls://127.0.0.1:1"]
@@ -76,11 +75,6 @@ def test_a_report_made_again_gives_the_points_as_json(
         assert ours["contact_force_max_N"] == theirs.get("contact_force_max_N")
 
 
-def test_quiet_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([*SWEEP, "--quiet"]) == 0
-    assert capsys.readouterr() == ("", "")
-
-
 def test_failed_points_are_in_the_table_and_in_the_status(
     simulated: list[Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -104,11 +98,6 @@ def test_samples_print_statistics(capsys: pytest.CaptureFixture[str]) -> None:
     assert out.count("Contact force, peak kN") == 2
     assert "contact.law = ke" in out
     assert "median" in out
-
-
-def test_set_and_solver_change_every_point(simulated: list[Any]) -> None:
-    assert main([*SWEEP, "--set", "run.duration=0.5 s", "--solver", "radau"]) == 0
-    assert {(case.run.duration, case.solver.name) for case in simulated} == {(0.5, "radau")}
 
 
 def test_a_wide_table_is_cut_to_the_terminal(
@@ -237,14 +226,3 @@ def test_the_table_shows_what_varies_or_what_is_asked_for() -> None:
     heading = " ".join(list(sweep_in_words(record, ["steps", "contact_force_max_N"]))[:-2])
     assert heading.index("Steps") < heading.index("Contact")
     assert "Tilt" not in heading
-
-
-def test_a_number_that_nobody_knows_cannot_be_shown(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([*SWEEP, "-o", "out", "--show", "tilt_max_rad"]) == 2
-    assert ": tilt_max_mrad, " in capsys.readouterr().err
-
-
-def test_reports_of_points_are_announced_only_where_points_have_whole_results(tmp_path: Path) -> None:
-    said: list[str] = []
-    draw_points(tmp_path, said.append)
-    assert said == []

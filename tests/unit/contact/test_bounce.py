@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from tribodyn.contact import DAMPING_FACTORS, LAWS, RSDC, SurfacePair, law, tabulate
-from tribodyn.contact.bounce import bounce, calibrating_scale, undamped_depth
+from tribodyn.contact.bounce import bounce
 from tribodyn.contact.linear import LinearContact
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import stored_energy
@@ -66,17 +66,6 @@ def test_energy_lost_is_the_damping_heat(table_1_pair: SurfacePair) -> None:
     energy = stored_energy(table, undamped.deepest) - stored_energy(table, 4.0)
     stored = stored_energy(table, damped.deepest) - stored_energy(table, 4.0)
     assert damped.restitution**2 * energy < stored < energy
-
-
-def test_depth_is_where_the_stiffness_carries_the_pressure(table_1_pair: SurfacePair) -> None:
-    found = law("ke", table_1_pair)
-    depth = undamped_depth(tabulate(found), 98.78e6)
-    # Model, section 2: 98.78 MPa at h* = 1, to four digits.
-    assert depth == pytest.approx(1.0, abs=1e-4)
-
-
-def test_no_damping_is_needed_for_a_full_rebound(table_1_pair: SurfacePair) -> None:
-    assert calibrating_scale(tabulate(RSDC(table_1_pair)), 1.0) == 0.0
 
 
 @pytest.mark.parametrize("pressure", [0.0, 1e12])

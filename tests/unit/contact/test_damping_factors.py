@@ -2,21 +2,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor, calibrated, rebound
+from tribodyn.contact.damping_factors import DAMPING_FACTORS, calibrated, rebound
 
 MEANT = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 0.99])
-
-
-@pytest.mark.parametrize("factor", DAMPING_FACTORS.values(), ids=DAMPING_FACTORS.keys())
-def test_elastic_impact_has_no_damping(factor: DampingFactor) -> None:
-    assert factor(np.array([1.0]))[0] == 0.0
-    assert factor.realised(np.array([1.0]))[0] == 1.0
-
-
-@pytest.mark.parametrize("factor", DAMPING_FACTORS.values(), ids=DAMPING_FACTORS.keys())
-def test_keeps_the_shape(factor: DampingFactor) -> None:
-    meant = np.full((2, 3), 0.6)
-    assert factor(meant).shape == factor.realised(meant).shape == (2, 3)
 
 
 def impact(ratio: float, exponent: float, dashpot: bool = False) -> float:

@@ -9,18 +9,6 @@ def law(table_1_pair: SurfacePair) -> KogutEtsion:
     return KogutEtsion(table_1_pair)
 
 
-def test_has_no_damping(law: KogutEtsion) -> None:
-    damping = law.damping_pressure(np.zeros((2, 3)))
-    assert damping.shape == (2, 3)
-    assert not damping.any()
-
-
-def test_pressure_falls_with_separation(law: KogutEtsion) -> None:
-    pressure = law.stiffness_pressure(np.linspace(-4.0, 8.0, 200))
-    assert np.all(pressure > 0.0)
-    assert np.all(np.diff(pressure) < 0.0)
-
-
 def test_regimes_are_adjacent_and_reach_from_zero_to_infinity(law: KogutEtsion) -> None:
     regimes = law.regimes
     assert regimes.elastic.lower == 0.0

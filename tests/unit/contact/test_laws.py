@@ -33,13 +33,6 @@ def test_area_and_count_fall_with_separation_where_the_theory_has_them(
             assert not issubclass(LAWS[name], AsperityLaw)
 
 
-@pytest.mark.parametrize("kind", LAWS.values())
-def test_says_what_it_is(kind: type) -> None:
-    assert kind.title
-    assert kind.source
-    assert kind.validity
-
-
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("factor", DAMPING_FACTORS)
 def test_every_law_takes_every_damping_factor(table_1_pair: SurfacePair, name: str, factor: str) -> None:

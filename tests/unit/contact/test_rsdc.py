@@ -4,7 +4,6 @@ from scipy.integrate import solve_ivp
 
 from tribodyn.contact import DAMPING_FACTORS, RSDC, KogutEtsion, SurfacePair, tabulate
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
@@ -14,17 +13,6 @@ H_STAR = np.linspace(-4.0, 8.0, 61)
 def test_stiffness_is_that_of_kogut_and_etsion(table_1_pair: SurfacePair) -> None:
     expected = KogutEtsion(table_1_pair).stiffness_pressure(H_STAR)
     np.testing.assert_array_equal(RSDC(table_1_pair).stiffness_pressure(H_STAR), expected)
-
-
-def test_restitution_lies_between_zero_and_one(table_1_pair: SurfacePair) -> None:
-    restitution = RSDC(table_1_pair).meant_restitution(H_STAR)
-    assert np.all((restitution > 0.0) & (restitution < 1.0))
-
-
-def test_damping_is_finite_and_falls_with_separation(table_1_pair: SurfacePair) -> None:
-    damping = RSDC(table_1_pair).damping_pressure(H_STAR)
-    assert np.all(damping > 0.0)
-    assert np.all(np.diff(damping) < 0.0)
 
 
 def test_default_factor_is_the_printed_one(table_1_pair: SurfacePair) -> None:
@@ -44,12 +32,6 @@ def test_far_apart_there_is_neither_loss_nor_damping(table_1_pair: SurfacePair, 
     assert law.loss_factor(far)[-1] == 0.0
     assert law.meant_restitution(far)[-1] == 1.0
     np.testing.assert_allclose(law.damping_pressure(far), 0.0, atol=1e-100)
-
-
-def test_unknown_factor_names_the_known_ones(table_1_pair: SurfacePair) -> None:
-    with pytest.raises(InputError, match="gonthier") as caught:
-        RSDC(table_1_pair, damping_factor="newton")
-    assert caught.value.key == "contact.damping_factor"
 
 
 def flat_impact(table: ContactTable, depth: float) -> tuple[float, float]:

@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import quad
 
 from tribodyn.contact import RSDC, ContactLaw, KogutEtsion, SurfacePair, law_of_user, tabulate
-from tribodyn.contact.table import onset_share
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.lookup import pressure_and_damping
 
@@ -71,20 +70,6 @@ def test_table_agrees_with_adaptive_quadrature(table_1_pair: SurfacePair, hardne
     np.testing.assert_allclose(found[raw, 2], damping, rtol=1e-6)
 
 
-def test_law_without_damping_tabulates_to_zero_damping(table_1_pair: SurfacePair) -> None:
-    assert not tabulate(KogutEtsion(table_1_pair)).nodes[:, 2:].any()
-
-
-def test_nodes_are_ready_for_a_kernel(table_1_pair: SurfacePair) -> None:
-    table = tabulate(RSDC(table_1_pair))
-    n = table.nodes.shape[0]
-    assert table.nodes.flags.c_contiguous
-    assert table.nodes.shape == (n, 4)
-    assert table.energy.shape == (n,)
-    assert (table.h_first, 1.0 / table.inverse_step) == (-4.0, 12.0 / 1536)
-    assert table.h_last == -4.0 + (n - 1) * 12.0 / 1536
-
-
 @pytest.mark.parametrize("law", [RSDC, KogutEtsion])
 def test_only_a_tail_without_weight_is_left_out(table_1_pair: SurfacePair, law: type[ContactLaw]) -> None:
     # Of the pressure at h* = 0, 1e-11: less than the table's own error where a joint carries its load.
@@ -94,10 +79,6 @@ def test_only_a_tail_without_weight_is_left_out(table_1_pair: SurfacePair, law: 
     assert beyond <= 1e-11 * at_zero < at_end
 
 
-def test_the_table_reaches_the_onset(table_1_pair: SurfacePair) -> None:
-    assert tabulate(RSDC(table_1_pair), onset=7.5).h_last >= 7.5
-
-
 def test_damping_is_zero_above_the_onset_and_whole_below_it(table_1_pair: SurfacePair) -> None:
     law = RSDC(table_1_pair)
     table = tabulate(law, onset=3.0, smoothing_width=0.5)
@@ -105,12 +86,6 @@ def test_damping_is_zero_above_the_onset_and_whole_below_it(table_1_pair: Surfac
         assert pressure_and_damping(table, h_star)[2:] == (0.0, 0.0)
     whole = law.damping_pressure(np.array([2.5]))[0]
     assert pressure_and_damping(table, 2.5)[2] == pytest.approx(whole, rel=1e-12)
-
-
-def test_smoothstep_runs_from_zero_at_the_onset_to_one() -> None:
-    share, slope = onset_share(np.array([4.5, 4.0, 3.5, 3.0, 0.0]), 4.0, 1.0)
-    np.testing.assert_allclose(share, [0.0, 0.0, 0.5, 1.0, 1.0], atol=1e-15)
-    np.testing.assert_allclose(slope, [0.0, 0.0, -1.5, 0.0, 0.0], atol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -83,15 +83,6 @@ def test_the_joint_of_a_case_has_the_table_of_the_law(given: Any) -> None:
     assert case.contact.law == "rsdc"
 
 
-def test_a_class_that_has_changed_since_the_last_run_is_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    case: Any = td.load_case("vsv")
-    case = case.model_copy(update={"contact": case.contact.with_own(Soft)})
-    before = bushing_of(case).table.nodes[0, 0]
-    softer = Soft.stiffness_pressure
-    monkeypatch.setattr(Soft, "stiffness_pressure", lambda law, h_star: 0.5 * softer(law, h_star))
-    assert bushing_of(case).table.nodes[0, 0] == pytest.approx(0.5 * before)
-
-
 @pytest.mark.parametrize("given", [Soft, soft])
 def test_a_run_takes_it(given: Any) -> None:
     case = td.load_case("vsv").replace({"run.duration": "10 ms"})

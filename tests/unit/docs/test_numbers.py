@@ -9,8 +9,6 @@ from types import ModuleType
 
 import pytest
 
-from tribodyn.papers.cheng_2022.runs import Runs
-
 sys.path.insert(0, str(Path(__file__).parent))
 from pages import DOCS, ROOT, name, numbers, pages, prose
 
@@ -76,19 +74,3 @@ def test_what_holds_a_number_exists() -> None:
         for holder in set(listed) - KINDS:
             path, _, function = holder.partition("::")
             assert f"def {function}(" in (ROOT / path).read_text(encoding="utf-8"), holder
-
-
-def test_a_number_typed_into_a_page_is_found() -> None:
-    text = "The gap is 20 µm, the force 18.4 N and the residual 3e-5."
-    assert unheld(text, ["20 µm"]) == ["18.4 N", "3e-5"]
-    assert unheld(text, ["20 µm", "force 18.4 N", "3e-5"]) == []
-
-
-def test_numbers_of_pages_come_out(measured: ModuleType) -> None:
-    # Cheap ones, with the digits that the pages show: a page cannot contradict a run any more.
-    runs = Runs()
-    assert float(measured.NUMBERS["damping heat, 20 µm [mJ]"](runs)) == pytest.approx(0.62, abs=0.02)
-    assert float(measured.NUMBERS["stiffness at 9 MPa [MPa/µm]"](runs)) == pytest.approx(15.2, abs=0.1)
-    assert float(measured.NUMBERS["elastic-plastic share, h* = 2 [%]"](runs)) == pytest.approx(98.2, abs=0.1)
-    assert measured.NUMBERS["bounce, ke, kelvin-voigt, plate"](runs) == "0.842"
-    assert measured.NUMBERS["dry journal, rebounds"](runs) == "1"

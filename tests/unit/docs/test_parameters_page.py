@@ -13,10 +13,6 @@ MODEL = re.search(r"```toml\n(.*?)```", PAGE, re.DOTALL)[1]  # type: ignore[inde
 SHOWN = re.findall(r"\n    tribodyn ([^\n]*press\.toml[^\n]*)\n\n```text\n(.*?)```", PAGE, re.DOTALL)
 
 
-def test_the_page_shows_four_commands_with_their_answers() -> None:
-    assert [command.split()[0] for command, _ in SHOWN] == ["sweep", "find", "sweep", "sweep"]
-
-
 NAMES = ("sweep", "find", "samples", "wear")
 
 

@@ -49,11 +49,6 @@ def test_every_command_is_understood(
         assert main(["check", case, *changes]) == 0
 
 
-def test_commands_are_shown() -> None:
-    assert len(COMMAND_LINES) >= 8
-    assert {line.split()[1] for line in COMMAND_LINES} >= {"run", "show", "sweep", "surface", "compare"}
-
-
 def test_the_lines_of_python_run() -> None:
     lines = ["import tribodyn as td", *(line for line in CODE_LINES if line.startswith("result = "))]
     names: dict[str, object] = {}
@@ -62,23 +57,6 @@ def test_the_lines_of_python_run() -> None:
     assert isinstance(result, xr.Dataset)
     assert result.attrs["clearance"] == 40e-6
     assert not result.attrs["failure"]
-
-
-def recipe(target: str) -> str:
-    """Return what ``make`` would do, an environment being there."""
-    stamps = ("-o", ".venv/.run", "-o", ".venv/.dev")
-    shown = subprocess.run(["make", "-n", *stamps, target], cwd=ROOT, capture_output=True, text=True)
-    assert shown.returncode == 0, shown.stderr
-    return shown.stdout
-
-
-def test_make_demo_runs_the_vane_mechanism_over_two_drive_cycles() -> None:
-    assert "tribodyn run vsv -o out/demo" in recipe("demo")
-    assert td.load_case("vsv").at("run.cycles") == 2.0
-
-
-def test_make_test_runs_all_but_the_longest_tests() -> None:
-    assert '-m pytest -n 3 --dist worksteal -m "not long"' in recipe("test")
 
 
 def test_installing_gives_the_command_on_python_3_11() -> None:

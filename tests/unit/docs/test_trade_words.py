@@ -17,18 +17,6 @@ from tribodyn.mechanism.mechanism_case import MechanismCase
 
 PAGE = Path(__file__).parents[3] / "docs/guide/words.md"
 TEXT = PAGE.read_text(encoding="utf-8")
-ROWS = [row.split(" | ") for row in re.findall(r"^\| (.*) \|$", TEXT, re.M)]
-WORDS = (
-    *("backlash", "play", "hinge", "bushing", "linkage", "cam", "rod end", "grease", "press fit", "PV"),
-    *("tolerance stack", "hysteresis", "lost motion", "resonance", "motor torque", "Excel", "CAD", "URDF"),
-    *("Simscape", "Adams", "Exudyn", "SolidWorks Motion", "MuJoCo"),
-)
-
-
-def test_sixty_words_are_there() -> None:
-    named = {word.strip() for row in ROWS for word in row[0].split(",")}
-    assert len(named) >= 60
-    assert [word for word in WORDS if word not in TEXT] == []
 
 
 def test_keys_are_those_of_cases() -> None:

@@ -16,11 +16,6 @@ GUIDES = [
 ]
 
 
-def test_there_are_tutorials():
-    assert len(TUTORIALS) >= 6
-    assert {"bearing", "first_run", "gallery", "stribeck", "surface"} <= {path.stem for path in GUIDES}
-
-
 @pytest.mark.parametrize("path", [*TUTORIALS, *GUIDES], ids=lambda path: path.stem)
 def test_the_page_runs(path, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)

@@ -106,11 +106,3 @@ def test_sentences_are_short(page: Path) -> None:
     lengths = sentences(page)
     assert sum(lengths) <= MEAN * len(lengths)
     assert max(lengths, default=0) <= LONGEST
-
-
-def test_a_word_of_the_list_is_found() -> None:
-    assert found("The ledger told us of a blow.") == [
-        "blow -> impact",
-        "ledger -> energy balance",
-        "told -> reports, shows, prints",
-    ]

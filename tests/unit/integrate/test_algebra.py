@@ -172,11 +172,6 @@ def test_other_solvers_refuse_a_mass_matrix():
         integrate(with_mass(5, own=False), solver="bdf")
 
 
-def test_a_mass_matrix_of_the_wrong_shape_is_refused():
-    with pytest.raises(InputError, match="`mass` is expected to have shape"):
-        integrate(replace(with_mass(5, own=False), mass=np.ones(4)))
-
-
 def test_values_that_cannot_be_consistent_end_the_run():
     def unsolvable(t, y, data, memory, f):
         rhs(t, y, data, memory, f)

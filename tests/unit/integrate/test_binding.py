@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
-from tribodyn.integrate.base import Binding, all_finite
+from tribodyn.integrate.base import Binding
 
 
 def nothing(*_):
@@ -38,27 +38,6 @@ def linear(t, y, data, memory, f):
     f[:] = t * y
 
 
-def test_calls_are_counted_and_return_new_arrays():
-    def jac(t, y, data, memory, f, jacobian):
-        jacobian[0, 1] = 3.0
-
-    binding, statistics = bind(make_problem(linear, jac))
-    first, second = binding.rhs(1.0, np.ones(2)), binding.rhs(2.0, np.ones(2))
-    np.testing.assert_array_equal([first, second], [[1.0, 1.0], [2.0, 2.0]])
-    np.testing.assert_array_equal(binding.jac(0.0, np.ones(2)), [[0.0, 3.0], [0.0, 0.0]])
-    assert statistics.rhs_evaluations == 2
-    assert statistics.jacobian_evaluations == 1
-
-
-def test_a_jacobian_may_be_overwritten_by_the_method():
-    def jac(t, y, data, memory, f, jacobian):
-        jacobian[:] = np.eye(2) if t == 0.0 else np.nan
-
-    binding, _ = bind(make_problem(jac=jac))
-    binding.jac(0.0, np.ones(2))[:] = 7.0
-    np.testing.assert_array_equal(binding.jac(1.0, np.ones(2)), np.eye(2))
-
-
 def test_a_first_jacobian_that_is_not_finite_names_the_entry():
     def jac(t, y, data, memory, f, jacobian):
         jacobian[1, 0] = np.inf
@@ -72,10 +51,3 @@ def test_a_rate_that_is_not_finite_is_noted_with_time_and_name():
     binding, _ = bind(make_problem(linear))
     binding.rhs(2.5, np.array([1.0, np.nan]))
     assert binding.reason("gave up") == "gave up; the rate of speed was not finite at t = 2.5 s"
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_all_finite(bad):
-    assert all_finite(np.array([1.0, -2.0, 0.0]))
-    assert not all_finite(np.array([1.0, bad, 0.0]))
-    assert not all_finite(np.array([np.inf, -np.inf]))

@@ -36,16 +36,6 @@ def test_interpolation_does_not_disturb_the_steps():
     assert plain[-1][0] == 20.0
 
 
-def test_interpolant_joins_the_ends_of_the_step():
-    pytest.importorskip("sksundae")
-    y_old = np.array([2.0, 0.0])
-    for step in steps():
-        np.testing.assert_allclose(step.interpolate(step.t), step.y, rtol=1e-12, atol=1e-14)
-        # At its beginning the polynomial meets the state before within the local error.
-        np.testing.assert_allclose(step.interpolate(step.t_old), y_old, rtol=1e-4, atol=1e-6)
-        y_old = step.y
-
-
 def test_without_the_package_the_message_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "sksundae.cvode", None)
     with pytest.raises(InputError, match=r"tribodyn\[sundials\]"):

@@ -103,17 +103,6 @@ def test_the_order_of_the_calls():
     assert solution.statistics.restarts == 1
 
 
-def test_rows_are_taken_with_the_memory_the_step_was_computed_with():
-    solution, _ = run((), [0.0, 0.4, 0.8, 1.0])
-    np.testing.assert_allclose(solution.rows, [[0.0, 0.0, 0], [0.4, 0.4, 0], [0.8, 0.8, 1], [1.0, 1.0, 2]])
-
-
-def test_a_picture_at_the_start_is_taken_after_enter():
-    solution, calls = run((), (), [0.0])
-    assert calls[:2] == [("enter", 0.0, 0.0), ("picture", 0.0)]
-    assert solution.pictures.shape == (1, 2, 2)
-
-
 @pytest.mark.parametrize("shift", [-1e-15, 0.0, 1e-15])
 def test_marks_a_rounding_error_from_the_end_of_a_step_make_no_part_of_their_own(shift):
     _, calls = run((), [0.4 + shift])
@@ -129,14 +118,6 @@ def test_parts_of_a_run_tile_it_without_gaps():
     assert [a for a, _ in parts[1:]] == [b for _, b in parts[:-1]]
 
 
-def test_nothing_is_taken_when_nothing_is_asked_for():
-    solution, calls = run()
-    assert {call[0] for call in calls} == {"enter", "advance", "accept"}
-    assert solution.rows.shape == (0, 3)
-    assert solution.t_end == 1.0
-    np.testing.assert_allclose(solution.y_end, [1.0])
-
-
 def test_a_method_that_fails_leaves_what_was_reached():
     solution, calls = run((), [0.0, 0.3, 0.9], method=ExactSteps(fail_after=0.85))
     assert solution.failure == "stopped at t = 0.8 s, after a step of 0.4 s: no further"
@@ -147,31 +128,12 @@ def test_a_method_that_fails_leaves_what_was_reached():
     assert calls[-1] == ("accept", 0.8)
 
 
-def test_a_state_that_is_not_finite_is_not_accepted():
-    solution, calls = run(method=ExactSteps(bad_after=0.5))
-    assert solution.failure is not None
-    assert "the value of y became not finite" in solution.failure
-    assert solution.t_end == pytest.approx(0.4)
-    assert calls[-1] == ("accept", 0.4)
-
-
 def test_stop_is_asked_after_every_step_and_leaves_what_was_reached():
     answers = iter([False, True])
     solution, _ = run((), [0.0, 0.6, 0.9], stop=lambda: next(answers))
     assert solution.failure == INTERRUPTED
     assert solution.t_end == pytest.approx(0.8)
     np.testing.assert_allclose(solution.t, [0.0, 0.6])
-
-
-def test_a_run_that_has_reached_its_end_is_complete_whatever_stop_says():
-    solution, _ = run(stop=lambda: True, end=0.4)
-    assert solution.complete
-
-
-def test_progress_is_told_the_time_of_every_step():
-    times = []
-    run((0.5,), progress=times.append)
-    np.testing.assert_allclose(times, [0.4, 0.5, 0.9, 1.0])
 
 
 @dataclass

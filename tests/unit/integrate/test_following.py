@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.core.problem import CompiledFunctions, Following, Problem
 from tribodyn.integrate import integrate
-from tribodyn.integrate.following import CHUNK, CHUNK_ROOM, ROOM, Followed, thinning
+from tribodyn.integrate.following import CHUNK, CHUNK_ROOM, ROOM, Followed
 
 WINDOWS = np.array([[0.0, 0.3], [1.0, 1.4]])
 
@@ -97,17 +97,6 @@ def test_many_steps_are_thinned_and_keep_their_peaks():
     assert thin.rows[:, 0].min() == whole.rows[:, 0].min()
 
 
-def test_thinning_keeps_the_extremes_of_every_column():
-    values = np.random.default_rng(3).normal(size=(5000, 3))
-    kept = thinning(values, 70)
-    assert kept.size <= 70
-    assert np.all(np.diff(kept) > 0)
-    for column in range(3):
-        assert {values[:, column].argmin(), values[:, column].argmax()} <= set(kept.tolist())
-    again = thinning(values[kept], 30)
-    assert values[kept][again].max(axis=0).tolist() == values.max(axis=0).tolist()
-
-
 @pytest.mark.parametrize("solver", ["mebdf", "bdf"])
 def test_every_third_step_gives_a_row_and_those_that_are_wanted(solver):
     windows, wanted = np.array([[0.0, 2.0]]), np.zeros(1)
@@ -128,35 +117,6 @@ def test_every_third_step_gives_a_row_and_those_that_are_wanted(solver):
     assert chosen.size < every.size / 2 + asked.size
 
 
-def test_few_rows_are_left_alone():
-    assert thinning(np.zeros((7, 2)), 7).tolist() == list(range(7))
-
-
-def walked(lengths):
-    """Return the rows that are kept of 5000 steps when visits come after these numbers of them."""
-    t = np.linspace(0.0, 0.3, 5000, endpoint=False)
-    rows = np.column_stack([np.sin(300.0 * t), np.cos(11.0 * t)])
-    followed = Followed(Following(WINDOWS, 60, ((0,),)), 2)
-    begin = 0
-    for length in lengths:
-        end = min(begin + length, t.size)
-        followed.times[: end - begin], followed.rows[: end - begin] = t[begin:end], rows[begin:end]
-        followed.collect(end - begin)
-        begin = end
-    assert begin == t.size
-    return followed.merged(np.empty(0), np.empty((0, 2)))
-
-
-def test_what_is_kept_does_not_hang_on_the_clock():
-    # How many steps lie between two visits does.
-    chance = np.random.default_rng(5)
-    t, rows = walked([CHUNK] * 10)
-    for longest in (2, 100, CHUNK):
-        others = walked(chance.integers(0, longest, 20_000))
-        np.testing.assert_array_equal(others[0], t)
-        np.testing.assert_array_equal(others[1], rows)
-
-
 def test_long_rows_are_kept_within_their_room_with_their_peaks():
     n = 20_000
     followed = Followed(Following(np.array([[0.0, 1.0]]), 2000, ((0,),)), n)
@@ -172,22 +132,3 @@ def test_long_rows_are_kept_within_their_room_with_their_peaks():
     assert times.size > 2
     assert rows.nbytes <= ROOM / 2
     assert (rows[:, 0].min(), rows[:, 0].max()) == (values.min(), values.max())
-
-
-@pytest.mark.parametrize("places", [None, np.array([1, 3])])
-@pytest.mark.parametrize("share", [0.0, 0.02, 0.5, 1.0])
-def test_rows_are_merged_in_place(places, share):
-    # As many output times and steps as fill several blocks of moves.
-    chance = np.random.default_rng(9)
-    t = np.linspace(0.0, 0.3, 4 * CHUNK)
-    every = chance.normal(size=(t.size, 4))
-    at_step = chance.random(t.size) < share
-    followed = Followed(Following(np.array([[0.0, 1.0]]), t.size, ((0,),)), 4, places)
-    for steps in np.split(np.flatnonzero(at_step), range(CHUNK, np.count_nonzero(at_step), CHUNK)):
-        followed.times[: steps.size], followed.rows[: steps.size] = t[steps], every[steps]
-        followed.collect(steps.size)
-    kept = every if places is None else every[:, places]
-    outputs = np.concatenate([kept[~at_step], np.zeros((3, kept.shape[1]))])  # as after an early end
-    times, rows = followed.merged(t[~at_step], outputs)
-    assert times.tolist() == t.tolist()
-    assert np.array_equal(rows, kept)

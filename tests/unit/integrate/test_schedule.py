@@ -24,29 +24,6 @@ def test_times_a_rounding_error_apart_are_the_same_mark():
     assert schedule.output_times[3] == 3 * 0.1, "outputs are returned as they were asked for"
 
 
-@pytest.mark.parametrize("shift", [-1e-15, 1e-15])
-def test_times_a_rounding_error_outside_the_span_are_on_its_ends(shift):
-    schedule = make_schedule((0.0, 1.0), (), [shift, 1.0 + shift], [])
-    np.testing.assert_array_equal(schedule.marks, [0.0, 1.0])
-
-
-def test_breakpoints_on_the_ends_are_no_restarts():
-    schedule = make_schedule((0.0, 1.0), (0.0, 0.5, 1.0 - 1e-16), [], [])
-    np.testing.assert_array_equal(schedule.edges, [0.0, 0.5, 1.0])
-
-
-def test_no_times_at_all():
-    schedule = make_schedule((0.0, 1.0), (), (), ())
-    assert schedule.marks.size == 0
-
-
-def test_a_later_change_of_the_times_handed_in_changes_nothing():
-    times = np.array([0.0, 1.0])
-    schedule = make_schedule((0.0, 1.0), (), times, ())
-    times[:] = 7.0
-    np.testing.assert_array_equal(schedule.output_times, [0.0, 1.0])
-
-
 @pytest.mark.parametrize(
     ("span", "outputs", "message"),
     [

@@ -7,7 +7,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.joints.rows import FEWEST, MOST, resolving
+from tribodyn.joints.rows import resolving
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 from tribodyn.mechanisms.bushing import bushing_of, grid_of
 
@@ -16,11 +16,6 @@ def test_wider_clearances_and_smoother_surfaces_have_more_nodes():
     grids = [resolving(clearance, 1.6e-6) for clearance in (5e-6, 20e-6, 80e-6, 320e-6, 5e-3)]
     assert grids == sorted(grids)
     assert resolving(80e-6, 1.6e-6) == resolving(40e-6, 0.8e-6)
-
-
-def test_at_least_and_at_most():
-    assert resolving(1e-6, 1e-6) == FEWEST
-    assert resolving(1e-2, 1e-8) == MOST
 
 
 def test_what_is_given_is_kept():
@@ -55,8 +50,3 @@ def test_a_default_grid_holds_under_rotation(clearance):
     case = td.load_case("vsv").replace({"joint.clearance": clearance})
     assert spread_over_phases(case) < 1e-6
     assert spread_over_phases(case.replace({"solver.grid.theta": 24})) > 1e-4
-
-
-def test_running_in_keeps_the_grid():
-    vane = td.load_case("vsv").replace({"wear.final_roughness": "0.2 um", "wear.cycles": 400})
-    assert grid_of(vane.run_in(1e-6)) == grid_of(vane)

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.shapes import SHAPES, Annulus, Ball, Cylinder, Guide, Mesh, Slot, Sphere, Wall
-from tribodyn.joints.shapes.mesh import PATCH, nearby, split
+from tribodyn.joints.shapes import Annulus, Ball, Cylinder, Guide, Mesh, Slot, Sphere, Wall
 
 #: Two triangles of a square centimetre at z = 0 that face −z.
 CUBE_FACE = np.array([[[0.0, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [1, 0, 0]]]) * 1e-2
@@ -25,10 +24,6 @@ MADE = {
     "guide": Guide(TRIANGLE, 20e-6, 30e-3),
     "slot": Slot(6e-3, 20e-6, 20e-3),
 }
-
-
-def test_every_shape_is_tried() -> None:
-    assert MADE.keys() == SHAPES.keys()
 
 
 @pytest.mark.parametrize("shape", MADE)
@@ -85,24 +80,6 @@ def test_a_ball_in_a_bore_has_its_nodes_where_it_can_touch() -> None:
     assert band.gap.min() < 22e-6
     assert band.gap.max() == pytest.approx(40e-6, rel=1e-12)  # at the edges
     np.testing.assert_allclose(np.linalg.norm(band.position, axis=1), 8e-3, rtol=1e-14)
-
-
-def test_long_triangles_are_split() -> None:
-    small = split(CUBE_FACE, 3e-3)
-    sides = np.linalg.norm(small - np.roll(small, 1, axis=1), axis=2)
-    assert sides.max() <= 3e-3
-    across = np.cross(small[:, 1] - small[:, 0], small[:, 2] - small[:, 0])
-    assert 0.5 * np.abs(across[:, 2]).sum() == pytest.approx(1e-4, rel=1e-13)
-    assert (across[:, 2] < 0.0).all()  # none turned over
-
-
-def test_neighbours_lie_together() -> None:
-    points = np.random.default_rng(0).random((1000, 3))
-    order = nearby(points)
-    assert sorted(order) == [*range(1000)]
-    spans = [np.ptp(points[order[k : k + PATCH]], axis=0).max() for k in range(0, 1000, PATCH)]
-    # 32 boxes of a cube have sides of a quarter and a half.
-    assert np.median(spans) < 0.6
 
 
 @pytest.mark.parametrize(

@@ -38,40 +38,12 @@ def test_least_squares(m: int, n: int, rank: int) -> None:
     assert dense.lstsq(a, b) == pytest.approx(np.linalg.lstsq(a, b)[0], rel=1e-9, abs=1e-9)
 
 
-def test_eigenvalues_rise() -> None:
-    a = matrix(5, 5, 5)
-    values, vectors = dense.eigh(a @ a.T)
-    assert np.all(np.diff(values) > 0.0)
-    assert vectors @ np.diag(values) @ vectors.T == pytest.approx(a @ a.T, rel=1e-9)
-    indefinite = a + a.T
-    assert dense.eigh(indefinite)[0] == pytest.approx(np.linalg.eigvalsh(indefinite), abs=1e-12)
-
-
 def test_solutions_and_inverses() -> None:
     a = matrix(6, 6, 6)
     for right in (np.arange(6.0), np.arange(12.0).reshape(6, 2)):
         assert a @ dense.solve(a, right) == pytest.approx(right, abs=1e-10)
     assert a @ dense.inverse(a) == pytest.approx(np.eye(6), abs=1e-10)
     assert not np.isfinite(dense.solve(np.zeros((2, 2)), np.ones(2))).any()
-
-
-def test_products_have_the_shapes_of_numpy() -> None:
-    a, b, c = np.arange(6.0).reshape(2, 3), np.arange(3.0), np.arange(24.0).reshape(2, 4, 3)
-    # A mechanism whose joints all have clearance has no constraints.
-    none = np.zeros((3, 0))
-    for first, second in (
-        (a, b),
-        (b, a.T),
-        (a, a.T),
-        (b, b),
-        (c, a.T),
-        (none, none.T),
-        (none, b[:0]),
-        (none.T, b),
-    ):
-        # Whole numbers: products and sums are exact.
-        assert np.array_equal(dense.product(first, second), first @ second)
-    assert dense.norm(a) == pytest.approx(np.linalg.norm(a), rel=1e-15)
 
 
 def of_columns(a: FloatArray) -> FloatArray:

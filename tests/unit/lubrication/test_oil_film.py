@@ -39,11 +39,6 @@ def test_grids_that_hold_no_film_are_refused(grid: tuple[int, int]) -> None:
         FilmGrid(*grid)
 
 
-def test_negative_roughness_is_refused() -> None:
-    with pytest.raises(InputError, match="rms"):
-        Roughness((1e-6, -1e-6))
-
-
 def test_wear_needs_the_shape_of_the_film_and_a_resting_grid() -> None:
     with pytest.raises(InputError, match="shape"):
         FILM.data(np.zeros((3, 3)))
@@ -117,10 +112,6 @@ def test_half_the_film_is_enough_without_tilt() -> None:
     )
     assert half.torque == pytest.approx(whole.torque, rel=1e-8)
     assert half.leakage == pytest.approx(whole.leakage, rel=1e-7)
-
-
-def test_nothing_moves_nothing_presses() -> None:
-    assert film_state(FILM, STATE * ([1] * 4 + [0] * 4)).force == (0.0, 0.0)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.sparse import coo_array, csc_array, csr_matrix, diags_array
 
 from mebdf import MEBDF
-from mebdf.algebra import Full, Sparse, by_bands
+from mebdf.algebra import by_bands
 
 N = 80  #: More equations than the compiled core solves for.
 RATE = 400.0
@@ -163,22 +163,6 @@ def test_bands_with_and_without_exchanges_of_rows(lower, upper, diagonal):
     assert np.max(np.abs(matrix @ solution - known)) < 1e-13 * np.max(np.abs(matrix) @ np.abs(solution))
 
 
-def test_singular_bands_are_told():
-    assert by_bands(np.zeros((4, N)), 1, 1) == (None, 0)
-
-
-def test_a_jacobian_whose_entries_move():
-    """Narrow, then with a column beside its bands, then narrow again."""
-    mass = csc_array(np.eye(N))
-    jacobians = [LAPLACIAN, LAPLACIAN + SHORTCUT, LAPLACIAN[::-1, ::-1]]
-    algebra = Sparse(lambda t, y: csc_array(jacobians[int(t)]), mass, np.zeros(N, dtype=bool), np.ones(N))
-    for which, jacobian in enumerate(jacobians):
-        assert algebra.linearise(which, START)
-        assert algebra.factorise(0.01)
-        expected = np.linalg.solve((mass - 0.01 * jacobian).toarray(), START)
-        np.testing.assert_allclose(algebra.solve(START), expected, rtol=1e-10)
-
-
 def test_entries_given_twice_count_twice_and_stay():
     twice = csc_array(
         (np.full(2 * N, -1.0), np.repeat(np.arange(N), 2), np.arange(0, 2 * N + 1, 2)), shape=(N, N)
@@ -192,42 +176,3 @@ def test_entries_given_twice_count_twice_and_stay():
     )
     assert solution.nfev == single.nfev
     assert twice.nnz == 2 * N
-
-
-@pytest.mark.parametrize("kind", [Full, Sparse])
-def test_the_sign_of_the_determinant(kind):
-    rng = np.random.default_rng(5)
-    signs = []
-    for _ in range(12):
-        jacobian = np.where(rng.random((N, N)) < 0.2, rng.normal(size=(N, N)), 0.0) + np.diag(
-            rng.normal(size=N)
-        )
-        given = csc_array(jacobian) if kind is Sparse else jacobian
-        algebra = kind(
-            lambda t, y, given=given: given, csc_array(np.eye(N)), np.zeros(N, dtype=bool), np.ones(N)
-        )
-        assert algebra.linearise(0.0, np.zeros(N))
-        signs.append(algebra.factorise(1.0))
-        assert signs[-1] == np.linalg.slogdet(np.eye(N) - jacobian)[0]
-        assert algebra.trace() == pytest.approx(np.trace(jacobian))
-    assert set(signs) == {-1, 1}
-
-
-@pytest.mark.parametrize("kind", [Full, Sparse])
-def test_going_back_to_the_jacobian_before_and_to_zero(kind):
-    slopes = iter([1.0, 2.0, 3.0])
-
-    def jacobian(t, y):
-        matrix = next(slopes) * np.eye(N)
-        return csc_array(matrix) if kind is Sparse else matrix
-
-    algebra = kind(jacobian, csc_array(np.eye(N)), np.zeros(N, dtype=bool), np.ones(N))
-    traces = []
-    for _ in range(2):
-        algebra.linearise(0.0, np.zeros(N))
-    for to_zero in (False, True):
-        algebra.go_back(to_zero)
-        traces.append(algebra.trace() / N)
-    algebra.linearise(0.0, np.zeros(N))
-    algebra.go_back(False)
-    assert [*traces, algebra.trace() / N] == [1.0, 0.0, 1.0]  # zero is no Jacobian to go back to

@@ -73,54 +73,6 @@ def test_vectorised_right_hand_side():
     assert shapes == {(1,), (2,)}
 
 
-def test_extra_arguments():
-    solution = solve(lambda t, y, rate: rate * y, (0.0, 1.0), [1.0], args=(-2.0,), rtol=1e-8, atol=1e-10)
-    assert solution.y[0, -1] == pytest.approx(np.exp(-2.0), rel=1e-6)
-
-
-def falling(t, y):
-    return [y[1], -1.0]
-
-
-def ground(t, y):
-    return y[0]
-
-
-def test_an_event_that_only_tells():
-    solution = solve(swing, (0.0, 10.0), [1.0, 0.0], events=ground, rtol=1e-8, atol=1e-10)
-    np.testing.assert_allclose(solution.t_events[0], np.pi * np.array([0.5, 1.5, 2.5]), atol=1e-6)
-    np.testing.assert_allclose(solution.y_events[0][:, 0], 0.0, atol=1e-6)
-    assert solution.status == 0
-
-
-@pytest.mark.parametrize(("direction", "crossings"), [(1, [1.5]), (-1, [0.5, 2.5]), (0, [0.5, 1.5, 2.5])])
-def test_direction_of_an_event(direction, crossings):
-    def event(t, y):
-        return y[0]
-
-    event.direction = direction
-    solution = solve(swing, (0.0, 10.0), [1.0, 0.0], events=[event], rtol=1e-8, atol=1e-10)
-    np.testing.assert_allclose(solution.t_events[0] / np.pi, crossings, atol=1e-6)
-
-
-@pytest.mark.parametrize("count", [True, 2])
-def test_an_event_that_ends(count):
-    def event(t, y):
-        return y[0]
-
-    event.terminal = count
-    solution = solve(swing, (0.0, 10.0), [1.0, 0.0], events=event, rtol=1e-8, atol=1e-10, dense_output=True)
-    assert solution.status == 1
-    assert solution.t[-1] == pytest.approx(np.pi * (count - 0.5), abs=1e-6)
-    assert solution.sol(solution.t[-1])[0] == pytest.approx(0.0, abs=1e-7)
-
-
-def test_events_backward_in_time():
-    solution = solve(falling, (2.0, 0.0), [-1.0, -2.0], events=ground, rtol=1e-8, atol=1e-10)
-    # y = 1 − t²/2 reaches 0 at √2
-    np.testing.assert_allclose(solution.t_events[0], [np.sqrt(2.0)], atol=1e-7)
-
-
 def test_dense_output_is_continuous_and_meets_the_steps():
     solution = solve(tracking, (0.0, 3.0), [2.0, 0.0], rtol=1e-5, atol=1e-7, dense_output=True)
     np.testing.assert_allclose(solution.sol(solution.t), solution.y, rtol=1e-12, atol=1e-13)
@@ -131,30 +83,6 @@ def test_dense_output_is_continuous_and_meets_the_steps():
     assert solution.sol([0.5, 1.5]).shape == (2, 2)
 
 
-def test_times_asked_for():
-    t = np.array([0.0, 0.3, 0.3 + 1e-9, 2.0])
-    solution = solve(swing, (0.0, 2.0), [1.0, 0.0], t_eval=t, rtol=1e-7, atol=1e-9)
-    np.testing.assert_array_equal(solution.t, t)
-    np.testing.assert_allclose(solution.y[0], np.cos(t), atol=1e-6)
-    assert len(solve(swing, (0.0, 2.0), [1.0, 0.0], t_eval=[]).t) == 0
-
-
-def test_largest_step():
-    solution = solve(swing, (0.0, 4.0), [1.0, 0.0], max_step=0.05)
-    assert np.diff(solution.t).max() <= 0.05 * (1.0 + 1e-12)
-    for wrong in (0.0, -1.0):
-        with pytest.raises(ValueError, match="`max_step` must be positive"):
-            solve(swing, (0.0, 4.0), [1.0, 0.0], max_step=wrong)
-
-
-def test_first_step():
-    solution = solve(swing, (0.0, 4.0), [1.0, 0.0], first_step=0.001)
-    assert solution.t[1] == pytest.approx(0.001)
-    for wrong, message in ((0.0, "must be positive"), (-0.1, "must be positive"), (5.0, "exceeds bounds")):
-        with pytest.raises(ValueError, match=message):
-            solve(swing, (0.0, 4.0), [1.0, 0.0], first_step=wrong)
-
-
 def test_largest_order():
     low = solve(swing, (0.0, 10.0), [1.0, 0.0], rtol=1e-8, atol=1e-8, max_order=2)
     high = solve(swing, (0.0, 10.0), [1.0, 0.0], rtol=1e-8, atol=1e-8)
@@ -163,16 +91,6 @@ def test_largest_order():
     for wrong in (1, 9):
         with pytest.raises(ValueError, match="whole number from 2 to 8"):
             solve(swing, (0.0, 10.0), [1.0, 0.0], max_order=wrong)
-
-
-@pytest.mark.parametrize("span", [1e-4, 1.0, 1e6])
-def test_nothing_is_evaluated_beyond_the_end(span):
-    def fun(t, y):
-        assert 0.0 <= t <= span
-        return -y / span
-
-    solution = solve(fun, (0.0, span), [1.0], rtol=1e-7, atol=1e-10)
-    assert solution.y[0, -1] == pytest.approx(np.exp(-1.0), rel=1e-5)
 
 
 @pytest.mark.parametrize("end", np.linspace(1e-3, 1e-2, 25))
@@ -207,18 +125,6 @@ def test_jacobians_are_rarer_where_they_cost_evaluations():
     assert made[1] < 0.7 * made[0]
 
 
-def test_a_span_of_no_length():
-    solution = solve(swing, (4.0, 4.0), [1.0, 2.0])
-    assert solution.success
-    np.testing.assert_array_equal(solution.y[:, -1], [1.0, 2.0])
-
-
-def test_a_state_of_no_length():
-    solution = solve(lambda t, y: np.zeros(0), (0.0, 1.0), np.zeros(0))
-    assert solution.success
-    assert solution.y.shape[0] == 0
-
-
 def test_a_state_that_rests():
     solution = solve(lambda t, y: np.zeros(3), (0.0, 1e3), [1.0, -1.0, 0.0])
     assert solution.success
@@ -233,21 +139,6 @@ def test_other_kinds_of_numbers_become_double(dtype):
     assert solution.y.dtype == np.float64
     assert solution.y[0, -1] == pytest.approx(np.cos(1.0), abs=1e-7)
     np.testing.assert_array_equal(y0, np.array([1, 0], dtype=dtype))
-
-
-def test_a_right_hand_side_in_single_precision():
-    solution = solve(lambda t, y: swing(t, y).astype(np.float32), (0.0, 3.0), [1.0, 0.0])
-    assert solution.y[0, -1] == pytest.approx(np.cos(3.0), abs=1e-2)
-
-
-def test_tolerances_for_each_component():
-    loose = solve(swing, (0.0, 5.0), [1.0, 0.0], rtol=[1e-4, 1e-4], atol=[1e-4, 1e-4])
-    tight = solve(swing, (0.0, 5.0), [1.0, 0.0], rtol=[1e-10, 1e-4], atol=[1e-10, 1e-4])
-    assert tight.t.size > 2 * loose.t.size
-    with pytest.raises(ValueError, match="`atol` has wrong shape"):
-        solve(swing, (0.0, 5.0), [1.0, 0.0], atol=[1e-4] * 3)
-    with pytest.raises(ValueError, match="`atol` must be positive"):
-        solve(swing, (0.0, 5.0), [1.0, 0.0], atol=-1e-4)
 
 
 def test_tolerances_below_rounding_are_raised():
@@ -310,20 +201,6 @@ def test_arguments_without_effect_are_told():
         solve(swing, (0.0, 1.0), [1.0, 0.0], shape="round")
 
 
-def test_step_by_step():
-    solver = MEBDF(swing, 0.0, [1.0, 0.0], 1.0)
-    steps = 0
-    while solver.status == "running":
-        assert solver.step() is None
-        assert solver.t_old < solver.t <= 1.0
-        assert solver.dense_output()(solver.t) == pytest.approx(solver.y)
-        steps += 1
-    assert solver.status == "finished"
-    assert steps > 3
-    with pytest.raises(RuntimeError):
-        solver.step()
-
-
 def test_many_equations():
     n = 60  # beyond the size up to which the inverse is kept
     x = np.arange(1, n + 1) / (n + 1)
@@ -346,11 +223,6 @@ def test_an_interval_of_a_few_roundings():
 def test_times_that_are_no_numbers(span):
     with pytest.raises(ValueError, match="`t0` must be finite and `t_bound` a number"):
         MEBDF(swing, span[0], [1.0, 0.0], span[1])
-
-
-def test_an_order_between_two_orders():
-    with pytest.raises(ValueError, match="whole number from 2 to 8"):
-        MEBDF(swing, 0.0, [1.0, 0.0], 1.0, max_order=2.5)
 
 
 def test_a_start_too_small_for_a_relative_tolerance():

@@ -91,13 +91,6 @@ def test_a_component_that_leaves_zero_without_an_absolute_tolerance_names_it():
     assert "give it an absolute one" in solution.message
 
 
-def test_times_in_messages_have_no_unit():
-    solution = solve_ivp(lambda t, y: [np.nan if t > 0.5 else 1.0], (0.0, 1.0), [0.0], method=MEBDF)
-    assert not solution.success
-    assert "not finite at t = 0.5" in solution.message
-    assert not solution.message.endswith(" s")
-
-
 def test_an_end_that_never_comes():
     solution = solve_ivp(decay, (0.0, np.inf), [1.0], method=MEBDF)
     assert not solution.success

@@ -8,8 +8,6 @@ from tests.unit.mechanism.slider_crank import FILE, built, parsed
 
 from tribodyn.cases.load import parse
 from tribodyn.core.errors import InputError
-from tribodyn.joints.rows import resolving
-from tribodyn.joints.shapes import Cylinder
 from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.assembly.records import mechanism_data
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
@@ -53,27 +51,6 @@ def test_every_key_of_every_joint_can_be_changed_and_varied() -> None:
         CASE, {"joints.wrist.clearance.radial": "20:60:20 um", "joints.pin.point.x": "49, 50 mm"}
     )
     assert len(plan.points) == 6
-
-
-def test_keys_fill_records_in_si_with_numbers_for_names() -> None:
-    model = model_of(CASE)
-    assert model.bodies == ("crank", "rod", "slider")
-    data = mechanism_data(model)
-    couplings, n = data.parts.couplings, len(model.bodies)
-    joints = [(int(c.socket), int(c.shaft)) for c in couplings[: len(model.joints)]]
-    assert joints == [(n, 0), (0, 1), (1, 2), (n, 2)]
-    wrist = model.clearances["wrist"]
-    assert wrist.shape == Cylinder(9.5e-3, 20e-6, 20e-3, axial=50e-6, flange=14e-3)
-    assert wrist.grid == resolving(20e-6, wrist.roughness)
-    spring, load = couplings[len(model.joints) :]
-    assert spring.length == pytest.approx(0.1)
-    (term,) = data.terms[load.first_term : load.last_term]
-    signal = data.signals.signals[term.signals[0]]
-    # Along x alone, and against it, as the direction says.
-    assert (int(term.target), list(signal.sine)) == (0, [-50.0, 10.0, 0.0])
-    assert list(data.signals.pieces.c[signal.first][:2]) == [-100.0, 0.0]
-    # The force acts at the point as drawn, the mass centre of the slider.
-    assert list(load.shaft_point) == [0.0, 0.0, 0.0]
 
 
 def test_principal_axes_turn_the_inertia() -> None:

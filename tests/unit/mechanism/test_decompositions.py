@@ -3,16 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.mechanism.assembly.decompositions import (
-    DEPENDENT,
-    LARGE,
-    MultifrontalQR,
-    factors,
-    least_squares,
-    null_space,
-    row_space,
-    with_unit_rows,
-)
+from tribodyn.mechanism.assembly.decompositions import DEPENDENT, LARGE, factors, row_space, with_unit_rows
 
 N_BODIES = 20
 
@@ -79,59 +70,6 @@ def test_a_doubtful_rank_is_left_to_singular_values(shape: tuple[int, int], leas
         assert found is not None
     if found is not None:
         assert found.rank == np.sum(values > DEPENDENT * values[0])
-
-
-def test_a_small_matrix_keeps_its_singular_values() -> None:
-    assert factors(np.eye(LARGE - 1)) is None
-
-
-def test_rows_of_a_column_of_zeros_and_rows_of_zeros() -> None:
-    given = graph(6)
-    given[:, 30:36], given[7] = 0.0, 0.0
-    found = MultifrontalQR(given)
-    assert found.rank == np.linalg.matrix_rank(given)
-    np.testing.assert_allclose(given @ found.null, 0.0, atol=1e-11)
-
-
-def test_bodies_at_rest_have_no_part_in_the_motions_of_others() -> None:
-    given = np.vstack([graph(6)[: 6 * (N_BODIES - 2)], graph(5)[-10:]])
-    found = factors(with_unit_rows(given))
-    assert found is not None
-    assert found.null.shape[1] == 2
-    assert not found.null[: 6 * (N_BODIES - 2)].any()
-
-
-def test_only_the_motion_of_a_hub_moves_the_bodies_around_it() -> None:
-    rng = np.random.default_rng(5)
-    hub = np.zeros((5, N_BODIES, 6))
-    hub[:, 0] = rng.normal(size=(5, 6))
-    spokes = np.zeros((N_BODIES - 1, 2, N_BODIES, 6))
-    for body in range(1, N_BODIES):
-        spokes[body - 1][:, [0, body]] = rng.normal(size=(2, 2, 6))
-    found = factors(with_unit_rows(np.vstack([hub.reshape(5, -1), spokes.reshape(-1, 6 * N_BODIES)])))
-    assert found is not None
-    moved = np.any(found.null.reshape(N_BODIES, 6, -1) != 0.0, axis=1).sum(axis=0)
-    assert sorted(moved) == [1] * 4 * (N_BODIES - 1) + [N_BODIES]
-
-
-def test_least_squares_and_null_space_are_those_of_singular_values() -> None:
-    given = 1e4 * graph(5, redundant=1)
-    rank = 5 * N_BODIES
-    right = np.random.default_rng(3).normal(size=len(given))
-    exact = np.linalg.pinv(given, rcond=1e-9) @ right
-    np.testing.assert_allclose(least_squares(given, right, rank), exact, atol=1e-9 * np.max(np.abs(exact)))
-    free = null_space(given, rank)
-    _, _, rows = np.linalg.svd(given)
-    np.testing.assert_allclose(free @ free.T, rows[rank:].T @ rows[rank:], atol=1e-11)
-
-
-def test_a_rank_that_is_known_needs_no_singular_values() -> None:
-    given = graph(6, redundant=1)
-    given[:, ::5] *= 1e-8
-    exact, rank = np.random.default_rng(4).normal(size=given.shape[1]), given.shape[1]
-    assert factors(given) is None
-    assert factors(given, rank) is not None
-    np.testing.assert_allclose(least_squares(given, given @ exact, rank), exact, atol=1e-6)
 
 
 @pytest.mark.parametrize("held", [5, 6])

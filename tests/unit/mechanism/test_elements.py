@@ -22,7 +22,6 @@ from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
 from tribodyn.mechanism.assembly.parts_by_number import model_of
-from tribodyn.mechanism.assembly.skeleton import skeleton
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.elements.distance import Distance
@@ -403,26 +402,3 @@ def test_figure_and_report_show_pitch_circles_and_rods(kind: type[ElementKeys], 
     assert shown is not None
     assert len(shown["outlines"]) == lines  # a slider is a box and the line of its guide
     assert draw(result).axes
-
-
-def test_pitch_circles_touch_and_the_pitch_line_is_a_tangent() -> None:
-    ((_, first),), ((_, second),) = skeleton(parsed(Gear.EXAMPLE)).outlines
-    centres = [0.5 * (circle[0] + circle[24]) for circle in (first, second)]
-    radii = [
-        np.linalg.norm(circle - centre, axis=1)
-        for circle, centre in zip((first, second), centres, strict=True)
-    ]
-    assert radii[0] == pytest.approx(0.03, rel=1e-9)
-    assert radii[0][0] + radii[1][0] == pytest.approx(
-        float(np.linalg.norm(centres[1] - centres[0])), rel=1e-9
-    )
-    *_, ((_, pinion),), ((_, line),) = skeleton(parsed(Rack.EXAMPLE)).outlines
-    centre, radius = 0.5 * (pinion[0] + pinion[24]), 0.5 * np.linalg.norm(pinion[24] - pinion[0])
-    along = (line[1] - line[0]) / np.linalg.norm(line[1] - line[0])
-    assert np.linalg.norm(np.cross(along, line[0] - centre)) == pytest.approx(radius, rel=1e-9)
-
-
-def test_the_line_of_a_body_at_rest_is_that_of_the_drawing() -> None:
-    drawn, points = skeleton(parsed(Gear.EXAMPLE)), np.eye(3)
-    still = drawn.moved(points, -1, np.zeros((4, 3)), np.zeros((4, 4)))
-    assert still == pytest.approx(np.tile(1e3 * points, (4, 1, 1)))

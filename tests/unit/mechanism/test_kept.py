@@ -7,11 +7,9 @@ import pytest
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE
-from tribodyn.mechanism.mechanism_variables import BODIES, JOINTS, OIL, observed
-from tribodyn.mechanism.results.kept import OF_LARGE, Layout, frames, layout_of, not_kept
+from tribodyn.mechanism.mechanism_variables import BODIES, JOINTS, OIL
+from tribodyn.mechanism.results.kept import OF_LARGE
 from tribodyn.mechanism.sections.mechanism import data
-from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.mechanisms.results import all_there, summarise
 from tribodyn.results import json_attribute
 from tribodyn.views.playback import playback_times
@@ -89,33 +87,3 @@ def test_chosen_quantities_are_kept_and_no_others(whole):
     # What it does not hold is left out of key results, and the rest is there.
     assert "joint_force_max_N" not in summarise(found)
     assert "energy_residual_percent" in summarise(found)
-
-
-def test_an_unknown_quantity_is_refused():
-    with pytest.raises(InputError, match=r"results\.quantities"):
-        brief(**{"results.quantities": ["reaction"]})
-
-
-@pytest.mark.parametrize("others", [(), COUPLING[4:7]])
-def test_numbers_of_a_row_are_found_again(others):
-    counts, chosen = (2, 3, 2), (COUPLING[0], COUPLING[1], *COUPLING[4:7])
-    layout = Layout(*counts, BODY[1:3], chosen, others)
-    rows = np.random.default_rng(4).normal(size=(6, N_WHOLE + 2 * N_BODY + 5 * N_COUPLING))
-    assert layout.places is not None
-    assert layout.places.size == layout.size
-    assert np.all(np.diff(layout.places) > 0)
-    every, found = observed(rows, 2), layout.observed(rows[:, layout.places])
-    for name, values in (*found.whole.items(), *found.bodies.items()):
-        np.testing.assert_array_equal(values, (every.whole | every.bodies)[name])
-    assert list(found.couplings) == [quantity.name for quantity in chosen]
-    for name, values in found.couplings.items():
-        n = 5 if name in [quantity.name for quantity in others] else 3
-        np.testing.assert_array_equal(values, every.couplings[name][:, :n])
-
-
-def test_a_small_model_keeps_all_rows():
-    case = brief()
-    assert not not_kept(case)
-    assert layout_of(case).places is None
-    assert frames(case) == 120
-    assert MechanismSystem(case).problem(case.duration).n_kept == layout_of(case).size

@@ -42,13 +42,6 @@ def test_of_many_joints_those_loaded_most_are_shown(many: xr.Dataset) -> None:
     ]
 
 
-def test_of_few_joints_all_are_shown_and_nothing_is_said_of_it(many: xr.Dataset) -> None:
-    few = many.isel(joint=slice(4), surface=slice(4))
-    assert joints.real_joints(few).joints == [0, 1, 2]
-    assert joints.loaded_joints(few).joints == [0, 1, 2, 3]
-    assert joints.real_joints(few).which == joints.loaded_joints(few).which == ""
-
-
 def test_the_same_note_of_many_surfaces_is_given_for_a_few_with_the_number_of_the_others() -> None:
     contacts = Contacts((), (), tuple(NAMES), ())
     peaks = {"pressure_peak": np.arange(1.0, 13.0) * 1e6}

@@ -8,14 +8,12 @@ import pytest
 import xarray as xr
 from tests.unit.mechanism.made_up import N, result
 
-from tribodyn.cases.case import with_entries
-from tribodyn.mechanism.assembly.skeleton import case_of, rotated, skeleton, view
+from tribodyn.mechanism.assembly.skeleton import case_of, skeleton
 from tribodyn.mechanism.figures import FIGURES
 from tribodyn.mechanism.mechanism_variables import VARIABLES
 from tribodyn.mechanism.sections import CHAPTERS
 from tribodyn.mechanism.sections.mechanism import at_frames, data
 from tribodyn.mechanisms import results
-from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.schema import check
 from tribodyn.views.encode import Packed
 from tribodyn.views.playback import playback_times
@@ -143,34 +141,6 @@ def test_arrows_are_the_forces_of_the_result() -> None:
     assert "moment" not in payload["forces"]
 
 
-def test_springs_are_drawn_between_their_ends() -> None:
-    spring = {"between": "ground, slider", "first_point": "300, 0, 0 mm", "second_point": "170, 0, 0 mm"}
-    case = with_entries(
-        load_case("slider-crank"), {f"springs.back.{k}": v for k, v in spring.items()}, "test"
-    )
-    drawn = skeleton(case)
-    ((first, second),) = drawn.springs
-    assert (first[0], second[0]) == (-1, drawn.bodies.index("slider"))
-    assert [line[0][0] for line in drawn.outlines] == [drawn.bodies.index("slider"), -1]  # a box in a guide
-    np.testing.assert_allclose(second[1], [[0.17, 0.0, 0.0]])
-
-
-def test_a_quaternion_turns_vectors() -> None:
-    half = np.sqrt(0.5)
-    turned = rotated(np.array([half, 0.0, 0.0, half]), np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 2.0]]))
-    # Rounding.
-    np.testing.assert_allclose(turned, [[0.0, 1.0, 0.0], [0.0, 0.0, 2.0]], atol=1e-15)
-
-
-@pytest.mark.parametrize("flat", [0, 1, 2])
-def test_a_flat_mechanism_is_seen_across_its_plane(flat: int) -> None:
-    points = np.random.default_rng(1).uniform(size=(9, 3))
-    points[:, flat] *= 0.01
-    eye, up = view(points)
-    assert abs(eye[flat]) == 1.0
-    assert eye @ up == 0.0
-
-
 @pytest.mark.parametrize("name", FIGURES)
 def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) -> None:
     family = FIGURES[name]
@@ -181,12 +151,6 @@ def test_every_figure_is_drawn_of_a_whole_result_and_of_an_empty_one(name: str) 
     assert family.draw(RESULT.isel(time=slice(0, 0), frame=slice(0, 0))).axes
 
 
-def test_orbits_without_velocities_join_the_rows_by_lines() -> None:
-    lost = RESULT.assign(relative_velocity=RESULT["relative_velocity"] * np.nan)
-    orbit = next(section for chapter in CHAPTERS for section in chapter.sections if section.name == "orbits")
-    assert orbit.payload(lost) is not None
-
-
 @pytest.mark.parametrize(
     "section", [s for chapter in CHAPTERS for s in chapter.sections], ids=lambda s: s.name
 )
@@ -195,15 +159,6 @@ def test_every_section_has_data_where_the_result_has(section) -> None:
     assert (whole is None) == (section.name in ("wear-history", "modes", "guides", "copies"))
     empty = section.payload(RESULT.isel(time=slice(0, 0), frame=slice(0, 0)))
     assert empty is None or section.name == "wear"
-
-
-def test_each_joint_with_clearance_has_its_orbit_and_each_joint_its_forces() -> None:
-    sections = {section.name: section for chapter in CHAPTERS for section in chapter.sections}
-    orbits, forces = sections["orbits"].payload(RESULT), sections["reactions"].payload(RESULT)
-    assert orbits is not None
-    assert forces is not None
-    assert orbits["names"] == ["wrist"]
-    assert forces["names"] == ["main", "pin", "wrist", "guide"]
 
 
 def test_natural_frequencies_are_drawn_where_a_result_has_them() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, frame_times, merged, shown
+from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, frame_times, shown
 
 TURNS = np.array([1.0, 2.0, 3.0, 4.0, 5.0])  #: Reversals of a drive with a period of 2 s, in a run of 6 s.
 
@@ -26,20 +26,6 @@ def test_a_run_that_stops_keeps_the_last_cycle_it_reached(reached: float, begin:
     film = times[shown(times, 6.0, 2.0)]
     assert film[0] == pytest.approx(begin)
     assert film[-1] == pytest.approx(end, abs=2.0 / EVEN)
-
-
-def test_a_run_shorter_than_a_cycle_is_filmed_whole() -> None:
-    times = frame_times(0.3, 2.0, np.empty(0), 0.0)
-    assert times[shown(times, 0.3, 2.0)] == pytest.approx(np.linspace(0.0, 0.3, EVEN + 1))
-
-
-def test_a_frame_at_a_snapshot_is_taken_once() -> None:
-    times = merged(np.array([0.5, 0.7]), np.array([0.0, 0.5 + 1e-13, 1.0]), 1.0)
-    assert times.tolist() == [0.0, 0.5, 0.7, 1.0]
-
-
-def test_no_snapshots_at_all() -> None:
-    assert merged(np.empty(0), np.array([0.0, 1.0]), 1.0).tolist() == [0.0, 1.0]
 
 
 def test_the_film_agrees_with_the_time_series() -> None:

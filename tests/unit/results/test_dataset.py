@@ -1,9 +1,7 @@
-import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.results import VARIABLES, build, json_attribute
-from tribodyn.results.dataset import plain_attribute
+from tribodyn.results import VARIABLES
 from tribodyn.results.variables import OUTPUTS, OUTPUTS_OF_CYCLE
 
 KNOWN = {**VARIABLES, **MECHANISMS["vsv"].variables}
@@ -27,37 +25,3 @@ def test_no_mechanism_says_again_what_all_share_and_long_names_are_unique(mechan
     assert not {name for name in both if mechanism.variables[name] == VARIABLES[name]}
     names = [variable.long_name for variable in (VARIABLES | mechanism.variables).values()]
     assert len(set(names)) == len(names)
-
-
-def test_a_name_without_a_line_is_refused():
-    with pytest.raises(KeyError, match="has no line"):
-        build(coordinates={"time": [0.0]}, columns={"nonsense": [1.0]})
-
-
-def test_a_wrong_number_of_dimensions_is_refused():
-    with pytest.raises(ValueError, match="e_x has shape"):
-        build(coordinates={"time": [0.0]}, columns={"e_x": [[1.0]]})
-
-
-@pytest.mark.parametrize(
-    ("value", "stored"),
-    [
-        (True, 1),
-        (np.True_, 1),
-        (np.float64(0.1), 0.1),
-        (np.int64(3), 3),
-        (None, ""),
-        (["µ", 1], '["µ", 1]'),
-        ({"a": None}, '{"a": null}'),
-    ],
-)
-def test_attributes_become_what_netcdf_holds(value, stored):
-    plain = plain_attribute(value)
-    assert plain == stored
-    assert type(plain) is type(stored)
-
-
-def test_json_attributes_read_back(make_result):
-    result = make_result(0.5)
-    assert json_attribute(result, "solver", {})["steps"] == 4321
-    assert json_attribute(result, "absent", []) == []

@@ -1,11 +1,10 @@
-import itertools
 import math
 
 import numpy as np
 import pytest
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.mechanisms.results import key_results_of, summarise
+from tribodyn.mechanisms.results import summarise
 from tribodyn.papers.cheng_2022.reduced.key_results import KEY_RESULTS
 from tribodyn.results import build
 
@@ -54,16 +53,6 @@ def test_what_is_missing_is_left_out_and_nothing_is_nan(make_result):
         assert summary["failure"] == "stopped"
 
 
-def test_no_wear_rate_before_a_cycle_is_complete(make_result):
-    assert "wear_depth_rate_nm_per_1000_cycles" not in summarise(make_result(3.0))
-
-
-def test_a_result_gives_what_it_has():
-    columns = {"e_x": [0.0, 3e-6], "e_y": [0.0, 4e-6]}
-    result = build(coordinates={"time": [0.0, 1.0]}, columns=columns, attributes={"kind": "vsv"})
-    assert summarise(result)["eccentricity_max_um"] == pytest.approx(5.0)
-
-
 def test_a_peak_between_output_times_is_not_lost(make_result):
     result = make_result(4.0)
     result["contact_force_impact"].values[1] = 1234.0
@@ -98,10 +87,3 @@ def test_a_peak_is_told_with_the_reversals_it_was_looked_for_after(make_result):
     assert (
         KEY_RESULTS["contact_force_outside_N"].label_in(one) == KEY_RESULTS["contact_force_outside_N"].label
     )
-
-
-@pytest.mark.parametrize("kind", MECHANISMS)
-def test_groups_of_key_results_are_contiguous(kind):
-    groups = [key_result.group for key_result in key_results_of(kind).values()]
-    changes = sum(a != b for a, b in itertools.pairwise(groups))
-    assert changes == len(set(groups)) - 1

@@ -9,7 +9,7 @@ import pytest
 
 from tribodyn.cli.main import main
 from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.core.problem import CompiledFunctions, Problem, Solution
+from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.summary import summarise
 from tribodyn.simulation import session as hashes
@@ -58,18 +58,6 @@ def test_each_number_that_a_run_reads_counts() -> None:
         hashes.of_data(replace(problem(), breakpoints=(0.5,)), 1e-3, "mebdf"),
     ]
     assert len(set(found)) == len(found)
-
-
-def test_addresses_pivots_and_kinds_of_not_a_number_do_not_count() -> None:
-    assert hashes.of_data(problem(address=7)) == hashes.of_data(problem())
-    assert hashes.of_data(problem(pivot=3)) == hashes.of_data(problem())
-    assert hashes.of_data(problem(entry=-np.nan)) == hashes.of_data(problem(entry=np.nan))
-
-
-def test_rows_and_the_end_count() -> None:
-    solution = Solution(np.zeros(2), np.ones((2, 3)), np.zeros(0), np.zeros(0), 1.0, np.ones(1))
-    others = [replace(solution, rows=2.0 * solution.rows), replace(solution, y_end=np.zeros(1))]
-    assert hashes.of_rows(solution) not in [hashes.of_rows(other) for other in others]
 
 
 def test_a_run_is_verified_by_its_hash(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -110,11 +110,6 @@ def test_what_only_a_product_determines_is_named_with_what_would_help(tmp_path: 
     assert "Measuring level as well" in words or "Measuring swing as well" in words
 
 
-def test_determined_keys_are_said_to_be_so(tmp_path: Path) -> None:
-    fit = _fit(_read(_file(tmp_path, "swing")))
-    assert statements(fit, fit.fitted(2)) == ["The data determine every key."]
-
-
 def test_an_interrupted_fit_goes_on_to_the_same_result(tmp_path: Path) -> None:
     data = _read(_file(tmp_path, "swing"))
     whole = _fit(data).fitted(2)
@@ -222,22 +217,6 @@ def test_a_wrong_unit_of_an_output_is_refused(name: str, unit: str, tmp_path: Pa
         read(path, _with_outputs())
 
 
-def test_rounding_is_no_measurement_that_would_help(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def with_rounding(case: td.studies.sweep.__class__) -> xr.Dataset:
-        run = _model(case)[["product"]]
-        time = run["time"].values
-        across = np.random.default_rng(int(1e12 * case.joint.clearance)).normal(0.0, 2e-34, time.size)
-        both = np.stack([run["product"].values, across], axis=1)
-        run["displacement"] = (("time", "axis"), both, {"units": "m"})
-        return run.assign_coords(axis=["x", "z"])
-
-    monkeypatch.setattr(calibration, "simulate", with_rounding)
-    fit = _fit(_read(_file(tmp_path, "product")))
-    words = " ".join(statements(fit, fit.fitted(2)))
-    assert "trade off" in words
-    assert "displacement" not in words
-
-
 def _tampered() -> dict[str, Callable[[list[str]], list[str]]]:
     """Return what may have happened to the lines of a file of evaluations."""
     entry = {"values": [2e-5, 0.1], "computed": [0.0] * TIMES.size}
@@ -272,15 +251,6 @@ def test_tampered_evaluations_are_refused(change: str, tmp_path: Path) -> None:
     lines = _tampered()[change](path.read_text(encoding="utf-8").splitlines())
     path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
     with pytest.raises(InputError, match=r"evaluations\.jsonl.*choose another folder or remove the file"):
-        _fit(data, tmp_path)
-
-
-def test_evaluations_that_are_no_text_are_refused(tmp_path: Path) -> None:
-    data = _read(_file(tmp_path, "swing"))
-    _fit(data, tmp_path).computed([0.5, 0.5])
-    with (tmp_path / EVALUATIONS).open("ab") as file:
-        file.write(b"\xff\xfe\n")
-    with pytest.raises(InputError, match="line 3"):
         _fit(data, tmp_path)
 
 

@@ -6,7 +6,6 @@ import signal
 import time
 from collections.abc import Iterator
 
-import psutil
 import pytest
 
 from tribodyn.core import fork_server
@@ -50,14 +49,6 @@ def test_a_task_is_tried_again_when_its_worker_dies_by_chance(workers: list[Swee
     assert task.deaths == 1
 
 
-def test_a_worker_that_died_between_tasks_is_replaced(workers: list[SweepWorker]) -> None:
-    victim = workers[0].process
-    victim.kill()
-    victim.join()
-    (answer,) = answers(workers[:1], [Task(os.getpid, ())], never)
-    assert answer[1] == workers[0].process.pid
-
-
 def test_a_stop_is_heard_at_once_and_keeps_what_has_arrived(workers: list[SweepWorker]) -> None:
     began = time.monotonic()
 
@@ -71,13 +62,6 @@ def test_a_stop_is_heard_at_once_and_keeps_what_has_arrived(workers: list[SweepW
     assert time.monotonic() - began < 5.0
     with started(1) as fresh:
         assert [answer for _, answer in answers(fresh, [Task(math.sqrt, (9.0,))], never)] == [3.0]
-
-
-def test_workers_are_gone_with_the_block() -> None:
-    with started(2) as made:
-        pids = [worker.process.pid for worker in made]
-        assert all(psutil.pid_exists(pid) for pid in pids)
-    assert not any(psutil.pid_exists(pid) for pid in pids)
 
 
 def test_workers_leave_ctrl_c_to_the_command(workers: list[SweepWorker]) -> None:

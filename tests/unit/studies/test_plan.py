@@ -1,7 +1,5 @@
 import pytest
 
-import tribodyn.studies.plan
-from tribodyn.contact import LAWS
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.studies import Sampling, make_plan
@@ -40,18 +38,6 @@ def test_equal_cases_have_equal_names_however_they_are_spelled() -> None:
     assert len(set(names)) == 1
 
 
-def test_another_version_has_other_names(monkeypatch: pytest.MonkeyPatch) -> None:
-    before = make_plan(VSV, {"joint.clearance": "20 um"}).points[0].name
-    monkeypatch.setattr(tribodyn.studies.plan, "version", lambda name: "99")
-    assert make_plan(VSV, {"joint.clearance": "20 um"}).points[0].name != before
-
-
-def test_everything_else_of_the_case_counts_too() -> None:
-    other = VSV.replace({"solver.rtol": 1e-5})
-    vary = {"joint.clearance": "20 um"}
-    assert make_plan(VSV, vary).points[0].name != make_plan(other, vary).points[0].name
-
-
 @pytest.mark.parametrize(
     ("vary", "sampling", "key", "said"),
     [
@@ -75,8 +61,3 @@ def test_what_cannot_be_is_refused_before_anything_runs(
     with pytest.raises(InputError, match=said) as caught:
         make_plan(VSV, vary, sampling)
     assert caught.value.key == key
-
-
-def test_every_contact_law_can_be_swept_in_both_formulations() -> None:
-    vary = {"contact.law": ",".join(LAWS), "mechanism.formulation": "exact,paper"}
-    assert len({point.name for point in make_plan(VSV, vary).points}) == 2 * len(LAWS)

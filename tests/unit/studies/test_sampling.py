@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from tribodyn.studies import DISTRIBUTIONS, SAMPLERS
-from tribodyn.studies.sampling import DistributionProblem
 
 #: Probabilities whose quantiles have the moments of the distribution, but for what lies in the last tails.
 MANY = (np.arange(200_000) + 0.5) / 200_000
@@ -31,17 +30,6 @@ def test_a_truncated_normal_stays_inside() -> None:
     assert values.max() <= 22.0
 
 
-@pytest.mark.parametrize("name", DISTRIBUTIONS)
-def test_the_ends_of_the_probabilities_are_finite(name: str) -> None:
-    assert np.isfinite(DISTRIBUTIONS[name].quantiles(ARGUMENTS[name][0], np.array([0.0, 1.0]))).all()
-
-
-@pytest.mark.parametrize("name", DISTRIBUTIONS)
-def test_wrong_numbers_of_arguments_are_refused(name: str) -> None:
-    with pytest.raises(DistributionProblem):
-        DISTRIBUTIONS[name].quantiles((1.0,), MANY)
-
-
 @pytest.mark.parametrize("name", SAMPLERS)
 @pytest.mark.parametrize("samples", [1, 5, 64])
 def test_samples_lie_in_the_cube_and_repeat_with_their_seed(name: str, samples: int) -> None:
@@ -59,7 +47,3 @@ def test_each_stratum_holds_one_sample(name: str) -> None:
     cube = SAMPLERS[name](32, 2, 0)[:32]
     for column in cube.T:
         assert sorted(np.floor(32 * column)) == list(range(32))
-
-
-def test_more_samples_of_a_sobol_sequence_keep_the_first() -> None:
-    assert (SAMPLERS["sobol"](20, 2, 3)[:12] == SAMPLERS["sobol"](12, 2, 3)).all()

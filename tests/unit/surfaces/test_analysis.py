@@ -16,7 +16,7 @@ from tribodyn.surfaces import (
     generate,
 )
 from tribodyn.surfaces.analysis import in_bands, spectra
-from tribodyn.surfaces.parameters import PARAMETERS, document, numbers
+from tribodyn.surfaces.parameters import numbers
 
 TREATMENT = Treatment(short_cutoff=6e-6, long_cutoff=60e-6)
 
@@ -59,14 +59,6 @@ def test_a_mirrored_or_turned_over_map_keeps_its_numbers(
     assert over == pytest.approx({k: v for k, v in expected.items() if k != "skewness"}, rel=1e-9)
 
 
-def test_heights_and_lengths_scale(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
-    scan = rough()
-    double = analyse(replace(scan, heights=2.0 * scan.heights), TREATMENT)
-    assert double.sigma == pytest.approx(2.0 * surface.sigma, rel=1e-12)
-    assert double.asperities.density == pytest.approx(surface.asperities.density, rel=1e-9)
-    assert double.asperities.radius == pytest.approx(0.5 * surface.asperities.radius, rel=1e-9)
-
-
 def test_a_few_holes_change_little(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
     heights = rough().heights.copy()
     heights[np.random.default_rng(3).random(heights.shape) < 0.002] = np.nan
@@ -75,12 +67,6 @@ def test_a_few_holes_change_little(surface: MeasuredSurface, rough: Callable[...
     assert found.sigma == pytest.approx(surface.sigma, rel=5e-3)
     assert found.asperities.radius == pytest.approx(surface.asperities.radius, rel=3e-2)
     assert any("missing" in warning for warning in found.warnings)
-
-
-def test_borders_without_heights_are_cut_off(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
-    heights = np.full((110, 140), np.nan)
-    heights[5:101, 7:135] = rough().heights
-    assert numbers(analyse(rough().with_heights(heights), TREATMENT)) == numbers(surface)
 
 
 def test_a_lay_is_found_and_told() -> None:
@@ -141,19 +127,6 @@ def test_impossible_treatments_are_refused(
     assert caught.value.key == key
 
 
-def test_every_number_has_a_label_and_a_finite_value(
-    surface: MeasuredSurface, rough: Callable[..., Scan]
-) -> None:
-    profile = numbers(analyse(rough(400)))
-    for found, is_map in ((numbers(surface), True), (profile, False)):
-        assert set(found) == {name for name, p in PARAMETERS.items() if p.of_maps in (None, is_map)}
-    stored = document(surface, [surface])
-    assert stored["short_cutoff_um"] == pytest.approx(6.0)
-    assert stored["cutoffs"][0]["sigma_um"] == stored["sigma_um"]
-    for name, value in numbers(surface).items():
-        assert np.isfinite(value), name
-
-
 def test_plasticity_index_is_that_of_greenwood_and_williamson(surface: MeasuredSurface) -> None:
     found = surface.asperities
     expected = 7.818e9 / 492e6 * (found.summit_rms / found.radius) ** 0.5
@@ -173,11 +146,6 @@ def test_the_integral_of_a_spectrum_is_the_variance(
         banded = in_bands(spectrum)
         assert banded.frequency.size < spectrum.frequency.size
         assert np.all(np.diff(banded.frequency) > 0.0)
-
-
-def test_surfaces_of_one_seed_are_the_same(rough: Callable[..., Scan]) -> None:
-    np.testing.assert_array_equal(rough().heights, rough().heights)
-    assert not np.array_equal(rough().heights, rough(seed=2).heights)
 
 
 @pytest.mark.parametrize("wrong", [(0.0, 0.8, 2.0, 1.0), (1.0, 1.0, 2.0, 1.0), (1.0, 0.5, 1.0, 2.0)])

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from tribodyn.surfaces import FILTERS, LEVELS, Scan
-from tribodyn.surfaces.treatment import filled, filtered, levelled
+from tribodyn.surfaces.treatment import filtered, levelled
 
 
 @pytest.mark.parametrize(("level", "degree"), LEVELS.items())
@@ -46,28 +46,9 @@ def test_the_gaussian_filter_of_a_map_is_the_same_in_all_directions() -> None:
         assert smooth[100, 150] == pytest.approx(0.5, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", FILTERS)
-def test_filters_keep_constants_and_holes(name: str) -> None:
-    heights = np.full((50, 60), 3.0)
-    heights[10:13, 20:25] = np.nan
-    smooth = FILTERS[name](Scan(heights, (1.0, 2.0)), 10.0)
-    np.testing.assert_allclose(smooth[~np.isnan(heights)], 3.0, rtol=1e-12)
-    np.testing.assert_array_equal(np.isnan(smooth), np.isnan(heights))
-
-
 def test_the_spectral_filter_parts_waves_sharply() -> None:
     x = (np.arange(1000) + 0.5) / 1000
     long, short = np.cos(20 * np.pi * x), np.cos(200 * np.pi * x)
     scan = Scan(long + short, (1e-3,))
     np.testing.assert_allclose(filtered(scan, "spectral", 0.05, None).heights, long, atol=1e-12)
     np.testing.assert_allclose(filtered(scan, "spectral", None, 0.05).heights, short, atol=1e-12)
-
-
-def test_holes_are_filled_from_around() -> None:
-    heights = np.full((40, 40), 2.0)
-    heights[:, 20:] = 4.0
-    heights[5:8, 5:8] = np.nan
-    heights[20:35, 25:40] = np.nan
-    whole = filled(heights)
-    np.testing.assert_allclose(whole[5:8, 5:8], 2.0, rtol=1e-12)
-    assert np.all((whole >= 2.0 - 1e-12) & (whole <= 4.0 + 1e-12))

@@ -64,23 +64,6 @@ def test_columns_carry_their_own_units(header: str, tmp_path: Path) -> None:
     assert scan.spacing == (0.5e-3,)
 
 
-def test_columns_in_the_other_order(tmp_path: Path) -> None:
-    scan = read(tmp_path, "h [um],x [um]\n5,0\n6,1\n")
-    np.testing.assert_allclose(scan.heights, [5e-6, 6e-6], rtol=1e-15)
-
-
-def test_points_left_out_of_a_profile_are_missing(tmp_path: Path) -> None:
-    scan = read(tmp_path, "# unit: um\nx,h\n0,1\n1,2\n4,3\n5,4\n6,5\n")
-    np.testing.assert_array_equal(np.isnan(scan.heights), [False, False, True, True, False, False, False])
-    assert scan.spacing[0] == pytest.approx(1e-6, rel=1e-15)
-
-
-def test_rounded_positions_are_equal_steps(tmp_path: Path) -> None:
-    x = np.round(np.arange(100) * 0.35, 2)
-    rows = "\n".join(f"{place},{k}" for k, place in enumerate(x))
-    assert read(tmp_path, f"x [um],h [um]\n{rows}\n").spacing[0] == pytest.approx(0.35e-6, rel=1e-3)
-
-
 TEXTS = {
     "a map": "# unit: um\n# spacing: 2 um, 1 um\n1,,-3e1\n\n  4 , nan,6\n# a note, with commas\n7,8,9\n",
     "a long line": "# unit: um\n# spacing: 1 um\n" + ",".join(f"{k}.5" for k in range(80)),

@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.validation.base import Band, Comparison, Verdict
 from tribodyn.validation.catalogue import Input, varied
-from tribodyn.validation.report import allowed, with_width
+from tribodyn.validation.report import with_width
 
 
 def _band(**limits: object) -> Band:
@@ -86,12 +86,6 @@ def test_both_sides_are_printed_where_they_differ() -> None:
     assert with_width(1.0, (0.25, 0.0)) == "1 −0.25 +0"
     assert with_width(1.0, (0.0, 0.0)) == "1"
     assert with_width(None, (0.0, 0.0)) == "-"
-
-
-def test_accepted_values_in_words() -> None:
-    assert allowed(_band(relative=0.1), 100.0) == "90 to 110"
-    assert allowed(_band(at_most=2.0), None) == "at most 2"
-    assert allowed(_band(covers=(1.0, 2.0)), None) == "contains 1 to 2"
 
 
 def _input(name: str, value: float, low: float, high: float) -> Input:

@@ -1,7 +1,6 @@
 """Motion between rows: free flights are parabolas, not polygons."""
 
 import numpy as np
-import pytest
 
 from tribodyn.core.splines import Cubics
 from tribodyn.views.playback import dense_times
@@ -31,15 +30,3 @@ def test_lines_between_dense_times_miss_no_more_than_asked_for() -> None:
     assert np.linalg.norm(lines - flight(middle), axis=1).max() <= room
     # Not more than needed: the longest row needs √(g h²/8/room) = 5 pieces.
     assert times.size <= 3 * 5 + 1
-
-
-def test_a_motion_that_is_straight_gets_no_times() -> None:
-    values = np.outer(TIME, [1.0, 2.0])
-    assert dense_times(TIME, values, np.tile([1.0, 2.0], (4, 1)), 1e-9).tolist() == TIME.tolist()
-
-
-@pytest.mark.parametrize("beyond", [0.0, 0.04])
-def test_ends_are_those_of_the_rows(beyond: float) -> None:
-    rates = START + FALL * TIME[:, None]
-    found = Cubics(TIME, flight(TIME), rates)(np.array([beyond]))
-    np.testing.assert_allclose(found, flight(np.array([beyond])), atol=1e-15)

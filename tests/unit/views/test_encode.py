@@ -41,15 +41,6 @@ def test_curves_keep_their_values_to_half_a_step(finest: float, code: str) -> No
     assert back == pytest.approx(values[[0, 2, 3]], rel=0.0, abs=0.500001 * step)
 
 
-@pytest.mark.parametrize("values", [[], [np.nan], [2.0, 2.0]])
-def test_curves_without_range_keep_their_values(values: list[float]) -> None:
-    packed_values = stepped(values, 0.0)
-    low, step = packed_values.scale
-    gap = np.iinfo(packed_values.array.dtype).max
-    back = [np.nan if code == gap else low + step * code for code in packed_values.array]
-    assert np.array_equal(back, values, equal_nan=True)
-
-
 def test_pictures_keep_their_values_to_half_a_step_of_their_own_peak():
     rng = np.random.default_rng(1)
     fields = rng.uniform(size=(5, 7, 4)) * np.array([1.0, 1e-3, 50.0, 0.0, 2.0])[:, None, None]
@@ -67,12 +58,3 @@ def test_no_text_of_a_document_can_end_its_script_and_it_reads_back():
     text = inside_page(document)
     assert re.fullmatch("[A-Za-z0-9+/=]+", text)
     assert opened(text)[0] == document
-
-
-def test_pages_of_equal_data_are_equal():
-    assert inside_page({"x": packed([1.0])}) == inside_page({"x": packed([1.0])})
-
-
-def test_a_header_holds_no_nan():
-    with pytest.raises(ValueError, match="not JSON compliant"):
-        inside_page({"x": float("nan")})

@@ -5,7 +5,7 @@ from tribodyn.figures.chart import close_up
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import build
 from tribodyn.views.bushing_sections import CONTACT_FORCE
-from tribodyn.views.events import direction, reversal_times
+from tribodyn.views.events import reversal_times
 
 VSV = MECHANISMS["vsv"]
 
@@ -17,18 +17,6 @@ def _speeds(time, speed):
 def test_reversals_of_a_sine():
     time = np.arange(0.0, 12.5, 5e-3)
     assert reversal_times(_speeds(time, np.sin(time))) == pytest.approx(np.pi * np.array([1, 2, 3]), abs=1e-5)
-
-
-def test_a_sample_exactly_at_the_reversal_counts_once():
-    assert reversal_times(_speeds([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 0.0, -1.0])) == pytest.approx([2.0])
-
-
-def test_lost_samples_are_passed_over():
-    assert reversal_times(_speeds([0.0, 1.0, 2.0, 3.0], [1.0, np.nan, -1.0, np.nan])) == pytest.approx([1.0])
-
-
-def test_direction_follows_the_ideal_motion():
-    assert direction(_speeds([0.0, 1.0], [2.0, -2.0])).tolist() == [1.0, -1.0]
 
 
 def test_the_close_up_starts_at_the_hardest_reversal(make_result):

@@ -21,11 +21,6 @@ def test_peaks_ends_and_order_are_kept(y, most):
     assert np.isnan(few_y).any() == np.isnan(values).any()
 
 
-def test_a_short_curve_is_left_as_it_is():
-    x = np.linspace(0.0, 1.0, 100)
-    assert thinned(x, x**2)[0] is x
-
-
 def test_every_peak_of_a_fine_signal_is_there():
     x = np.arange(100_000.0)
     y = np.zeros_like(x)
@@ -47,8 +42,3 @@ def test_lines_replace_points_within_the_tolerance(y: list[float], tolerance: fl
     assert np.isnan(few_y).sum() == (~good).sum()
     # Rounding of a line between two points of size 1.
     assert np.all(np.abs(np.interp(x, few_x, few_y) - values)[good] <= tolerance + 1e-15)
-
-
-def test_a_straight_curve_keeps_its_ends() -> None:
-    x = np.linspace(0.0, 1.0, 1000)
-    assert straightened(x, 2.0 * x, 1e-6)[0].tolist() == [0.0, 1.0]

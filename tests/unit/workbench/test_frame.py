@@ -1,12 +1,11 @@
 """Frames, and the runs that are kept."""
 
 import numpy as np
-import pytest
 from tests.unit.workbench.host import unframed
 
 from tribodyn.views.encode import packed
 from tribodyn.workbench import messages
-from tribodyn.workbench.server_state import MOST_CASES, KeptRuns
+from tribodyn.workbench.server_state import KeptRuns
 
 
 def test_arrays_stand_where_the_header_says_at_multiples_of_eight():
@@ -26,20 +25,6 @@ def test_arrays_stand_where_the_header_says_at_multiples_of_eight():
     assert messages.header(made) == answer.header
 
 
-def test_equal_arrays_stand_there_once():
-    times, values = packed(np.arange(100.0), "float64"), packed(np.ones(100))
-    made = messages.body({"a": [times, values], "b": [packed(np.arange(100.0), "float64"), packed([])]})
-    header = messages.header(made)
-    assert header["a"][0] == header["b"][0]
-    assert header["a"][1] != header["a"][0]
-    assert len(made) < len(messages.body({"a": [times, values]})) + 100
-
-
-def test_a_header_holds_no_nan():
-    with pytest.raises(ValueError, match="not JSON compliant"):
-        messages.body({"x": float("nan")})
-
-
 def test_of_runs_the_last_and_the_pinned_are_kept_and_others_as_there_is_room():
     runs = KeptRuns(room=25)
     for run in "abcd":
@@ -52,11 +37,3 @@ def test_of_runs_the_last_and_the_pinned_are_kept_and_others_as_there_is_room():
     runs.keep("e", "case e", b"x" * 30)
     assert list(runs.frames) == ["e"]
     assert not runs.pin("nothing")
-
-
-def test_texts_of_cases_are_forgotten_in_time():
-    runs = KeptRuns(room=1)
-    for number in range(MOST_CASES + 10):
-        runs.keep(str(number), "", b"xx")
-    assert len(runs.cases) == MOST_CASES
-    assert str(MOST_CASES + 9) in runs.cases

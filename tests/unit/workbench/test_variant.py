@@ -1,12 +1,11 @@
 """What is said of a case that the page changed: enough to make it again to the bit."""
 
-import difflib
 import shlex
 
 import pytest
 
 from tribodyn.cli.choosing import _change
-from tribodyn.core.errors import MOST_HINTS, InputError
+from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.workbench.variant import Origin
 
@@ -68,22 +67,3 @@ def test_what_cannot_be_turned_is_refused(origin, path, message):
     with pytest.raises(InputError, match=message) as error:
         origin.varied({path: "/etc/passwd"})
     assert len(str(error.value)) < 500
-
-
-def test_of_many_unknown_keys_the_meaning_of_few_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    looked: list[str] = []
-    found = difflib.get_close_matches
-
-    def counted(word: str, words: list[str], **more: float) -> list[str]:
-        looked.append(word)
-        return found(word, words, **more)
-
-    monkeypatch.setattr(difflib, "get_close_matches", counted)
-    origin = Origin(load_case("vsv"), "vsv")
-    with pytest.raises(InputError, match="unknown key"):
-        origin.varied({f"joint.{k:03d}clearance": "1" for k in range(200)})
-    assert 0 < len(looked) <= 2 * MOST_HINTS
-    looked.clear()
-    with pytest.raises(InputError, match="unknown key"):
-        origin.varied({"joint.clearance" * 100: "1"})
-    assert looked == []

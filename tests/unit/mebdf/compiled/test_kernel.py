@@ -14,7 +14,6 @@ import pytest
 from mebdf.compiled import jit
 from mebdf.compiled.library import NoMachineCode
 from mebdf.kernels.core import resume
-from mebdf.kernels.elementary import portable
 from mebdf.kernels.jit import kernel
 from mebdf.kernels.state import new_state
 
@@ -132,8 +131,3 @@ except NoMachineCode as problem:
 def test_without_numba_a_sentence_says_what_to_install() -> None:
     done = subprocess.run([sys.executable, "-c", WITHOUT_NUMBA], capture_output=True, text=True)
     assert "install numba (the extra `compile`)" in done.stdout, done.stderr
-
-
-def test_numbers_in_and_out() -> None:
-    assert portable.exp(0.0) == 1.0
-    assert portable.power(2.0, np.array([1.0, 3.0])).tolist() == [2.0, 8.0]

@@ -2,27 +2,14 @@
 
 from __future__ import annotations
 
-import struct
-from types import GenericAlias, SimpleNamespace
-from typing import Annotated, Any, NamedTuple, TypeVar
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray, FloatMatrix
-from mebdf.compiled.layouts import (
-    STACKED,
-    Absent,
-    Array,
-    Number,
-    One,
-    Tuple,
-    annotated,
-    digest,
-    layout_of,
-    of_hint,
-)
+from mebdf.compiled.layouts import STACKED, Absent, Array, Number, One, Tuple, annotated
 
 FIELDS = np.dtype((np.record, [("a", "f8"), ("b", "i8", (2,))]))
 OTHER = np.dtype((np.record, [("a", "f8"), ("c", "i8", (2,))]))
@@ -61,34 +48,12 @@ def test_annotations_say_the_layouts() -> None:
     )
 
 
-def test_an_annotation_may_be_a_type_alias() -> None:
-    entry = TypeVar("entry", bound=np.generic)
-    generic = GenericAlias(SimpleNamespace(__value__=np.ndarray[Any, np.dtype[entry]]), (np.float64,))  # type: ignore[arg-type]
-    plain = SimpleNamespace(__value__=generic)
-    assert of_hint(generic) == of_hint(plain) == of_hint(NDArray[np.float64]) == Array(FLOAT, 1)
-
-
 def test_an_annotation_that_says_too_little_is_named() -> None:
     def vague(x: Any) -> None:
         """Say nothing of the argument."""
 
     with pytest.raises(TypeError, match="no layout follows from the annotation"):
         annotated(vague)
-
-
-def test_words_are_those_of_numba() -> None:
-    matrix = np.arange(6.0).reshape(2, 3)
-    assert Number(float).words(1.5) == struct.unpack("<q", struct.pack("<d", 1.5))
-    assert Number(int).words(np.int64(-3)) == (-3,)
-    assert Array(FLOAT, 2).words(matrix) == (0, 0, 6, 8, matrix.ctypes.data, 2, 3, 24, 8)
-    data = Data(record(), matrix, 2.0)
-    layout = layout_of(data)
-    assert len(layout.words(data)) == layout.size == 11
-
-
-def test_a_record_is_its_own_memory_and_no_copy() -> None:
-    records = np.zeros(2, FIELDS)
-    assert One(FIELDS).words(records[1]) == (records.ctypes.data + FIELDS.itemsize,)
 
 
 READ_ONLY = np.zeros(3)
@@ -121,8 +86,3 @@ WRONG: list[tuple[Any, Any]] = [
 def test_what_does_not_fit_is_refused(layout: Any, value: Any) -> None:
     with pytest.raises(TypeError):
         layout.words(value)
-
-
-def test_records_with_other_fields_have_another_digest() -> None:
-    assert digest((One(FIELDS),)) != digest((One(OTHER),))
-    assert digest((One(FIELDS),)) == digest((One(np.dtype(FIELDS.descr)),))

@@ -1,14 +1,11 @@
-import json
 import math
 
 import pytest
 
-from tribodyn.papers.cheng_2022.claims import CLAIMS, Claim, Finding, Row, as_json, as_markdown, as_text
+from tribodyn.papers.cheng_2022.claims import CLAIMS, Claim, Finding, Row, as_text
 from tribodyn.papers.cheng_2022.claims.base import SENTENCES
-from tribodyn.papers.cheng_2022.claims.bounds import CLOSE, NEAR, VERDICTS, above, below, near
+from tribodyn.papers.cheng_2022.claims.bounds import CLOSE, NEAR, above, below, near
 from tribodyn.papers.cheng_2022.claims.ensemble import Judgement
-from tribodyn.papers.cheng_2022.claims.summary import as_markdown as counts_as_markdown
-from tribodyn.papers.cheng_2022.claims.summary import by_sentence, summarise
 
 
 def test_a_number_is_judged_by_its_factor():
@@ -97,33 +94,10 @@ def test_the_table_gives_formulations_bound_range_and_share(row):
     assert "`exact`: μ_f decides" in text
 
 
-def test_the_markdown_table_keeps_its_columns(row):
-    untested = Claim("b", ("F1",), "untested", "whole", near(1.0, "N"), reason="later")
-    lines = as_markdown([row, Row(untested)]).splitlines()
-    assert {line.replace("\\|", "").count("|") for line in lines} == {7}
-
-
-def test_the_json_table_is_plain(row):
-    [entry] = json.loads(json.dumps(as_json([row]), allow_nan=False))
-    assert entry["verdict"] == "reproduced"
-    assert entry["exact_verdict"] == "not decidable"
-    assert entry["printed_verdict"] == "not tested"
-    assert entry["bound_chosen_by"] == "we"
-    assert entry["bound_chosen_on"] == "2026-11-21"
-    assert entry["domain"] == "whole"
-
-
 def test_what_is_not_measured_is_not_tested():
     row = Row(Claim("a", ("F1",), "it holds", "whole", near(2.0, "N"), reason="not simulated"))
     assert {row.verdict(name) for name in ("printed", "paper", "exact")} == {"not tested"}
     assert row.reason == "not simulated"
-
-
-def test_a_claim_on_no_mechanism_has_one_finding():
-    claim = claim_of(near(2.0, "N"), formulations="alike")
-    row = Row(claim, {"paper": found(9.0)}, {"paper": judged("contradicted")})
-    assert row.verdict("paper") == row.verdict("exact") == "contradicted"
-    assert row.found("exact") == "alike"
 
 
 def test_what_is_measured_in_exact_only_is_not_tested_in_paper():
@@ -132,29 +106,3 @@ def test_what_is_measured_in_exact_only_is_not_tested_in_paper():
     )
     assert (row.verdict("paper"), row.verdict("exact")) == ("not tested", "reproduced")
     assert row.found("paper") == ""
-
-
-def test_scaled_bounds_keep_their_origin_and_the_paper_s_stay():
-    assert near(2.0, "N").scaled(2.0).full == pytest.approx((2.0 / 1.5, 3.0))
-    assert near(2.0, "N").scaled(0.5).partly == pytest.approx((2.0 / 1.5, 3.0))
-    assert above(90.0, "%", partly=50.0, origin=100.0).scaled(2.0).full[0] == 80.0
-    assert below(5.0, "%", partly=20.0).scaled(0.5).partly[1] == 10.0
-    assert above(1.0, by="the paper").scaled(2.0) == above(1.0, by="the paper")
-
-
-def test_counts_by_row_and_by_sentence(claim, row):
-    def other(claim, verdict):
-        return Row(claim, {}, {"paper": judged(verdict), "exact": judged("reproduced")})
-
-    everything = Claim("c", tuple(SENTENCES), "all", "whole", above(0.0))
-    rows = [row, other(claim_of(below(5.0)), "reproduced"), other(claim, "contradicted")]
-    rows += [other(everything, "reproduced")]
-    counts = summarise(rows)
-    assert counts["by_row"]["paper"] == dict.fromkeys(VERDICTS, 0) | {"reproduced": 3, "contradicted": 1}
-    # The least favourable verdict of its rows is that of the sentence.
-    assert by_sentence(rows, "paper")["F1"] == "contradicted"
-    assert by_sentence(rows, "exact")["F1"] == "not decidable"
-    assert counts["by_sentence"]["paper"]["reproduced"] == len(SENTENCES) - 1
-    assert (counts["favourable"], counts["favourable_by_our_bounds"]) == (3, 3)
-    text = counts_as_markdown(counts)
-    assert f"| contradicted | {VERDICTS['contradicted']} | 1 | 0 | 1 | 0 |" in text

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.papers.cheng_2022.claims.base import least_growth
 from tribodyn.papers.cheng_2022.claims.errors import speed_trend
 from tribodyn.papers.cheng_2022.claims.journal import fall_time, late_motion
 from tribodyn.papers.cheng_2022.claims.pressure import ZONE, contact_arc
@@ -22,12 +21,6 @@ def test_ends_of_contact_lie_between_nodes(n, middle):
     reach = 11.0 * np.log(1.0 / ZONE)
     assert first == pytest.approx(middle + 7.0 - reach, abs=180.0 / n)
     assert last == pytest.approx(middle + 7.0 + reach, abs=180.0 / n)
-
-
-def test_contact_all_around_has_no_ends():
-    theta = 2.0 * np.pi * np.arange(96) / 96
-    first, last = contact_arc(theta, np.ones(96), 0.0)
-    assert last - first == pytest.approx(360.0 - 360.0 / 96)
 
 
 def test_the_trend_of_the_speed_forgets_what_rings():
@@ -60,12 +53,6 @@ def test_the_late_motion_is_that_of_the_coordinate_that_moves_more():
         attrs={"clearance": 20e-6},
     )
     assert late_motion(run) == pytest.approx(100.0 * 0.2 * 3.0 / 20.0)
-
-
-def test_the_least_growth_of_a_row_of_numbers():
-    assert least_growth(np.array([1.0, 1.5, 1.65])) == pytest.approx(10.0)
-    assert least_growth(np.array([1.0, 1.5, 1.5])) == 0.0
-    assert least_growth(np.array([2.0, 1.0, 3.0])) == pytest.approx(-50.0)
 
 
 def test_runs_with_rows_of_their_own_come_side_by_side():

@@ -5,9 +5,8 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.core.errors import TribodynError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.results import key_results_of_case, summarise
+from tribodyn.mechanisms.results import summarise
 from tribodyn.results.reading import column, settled
 
 TEXT = """
@@ -62,12 +61,6 @@ def test_errors_are_read_where_the_crank_passes_an_angle(vane: xr.Dataset) -> No
     assert numbers["error_at_deg_vane_0_5_s"] == pytest.approx(at_time)
 
 
-def test_commands_find_the_names() -> None:
-    case = td.load_case("vsv").replace({"outputs.vane.at.angles": "5 deg"})
-    known = key_results_of_case(case)
-    assert {"error_sustained_deg_vane", "error_at_backward_deg_vane_5_deg"} <= known.keys()
-
-
 def test_a_campaign_ends_at_the_limit_of_an_output() -> None:
     case = td.load_case("vsv").replace(
         {
@@ -84,8 +77,3 @@ def test_a_campaign_ends_at_the_limit_of_an_output() -> None:
     assert share[-1] >= 1.0
     cycles = column(result, "wear_cycles")
     assert summarise(result)["wear_life_cycles"] <= cycles[-1]
-
-
-def test_another_limit_is_refused() -> None:
-    with pytest.raises(TribodynError, match="the limit of this error is angle_error_limit"):
-        td.load_case("vsv").replace({"outputs.vane.angular_velocity_error_limit": "1 deg/s"})

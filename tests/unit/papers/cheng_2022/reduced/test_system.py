@@ -1,13 +1,10 @@
 """The run of the vane mechanism: what its result holds, and a drive that would go too far if it went on."""
 
-import json
-
 import numpy as np
 import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.mechanisms.results import summarise
 
 
 def test_a_valid_short_run_of_a_drive_that_would_go_out_of_reach_runs() -> None:
@@ -76,10 +73,3 @@ def test_the_largest_rows_are_the_peaks(result: xr.Dataset) -> None:
     assert 0.98 * peak < force[result["time"].values > np.pi].max() <= peak
     assert result["contact_force_impact_time"].values[1] - np.pi < result.attrs["impact_time"]
     assert result["contact_force_outside"].values[0] < 0.5 * peak
-
-
-def test_summary_is_flat(result: xr.Dataset) -> None:
-    summary = summarise(result)
-    assert all(isinstance(value, float | int | str | list | dict) for value in summary.values())
-    assert summary["vane_angle_error_max_deg"] > 0.0
-    assert json.loads(json.dumps(summary)) == summary
