@@ -22,7 +22,7 @@ from tribodyn.kernels.film.jfo import filled_column, solve_transport
 from tribodyn.kernels.jit import entry, kernel
 
 
-@kernel
+@entry
 def film_wrench(film: FilmData, memory: FilmMemory, y: FloatArray, omega: float, out: FloatArray) -> int:
     """Fill ``out`` (5,) with (F_x, F_y, M_x, M_y, M_z) [N, N m] and return a status."""
     chart_of(y, memory.work.state)

@@ -6,18 +6,19 @@ stiff.
 """
 
 import math
-from typing import Any
+from typing import Annotated, Any
 
+from mebdf.compiled.layouts import STACKED
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import Signals, add_following, add_terms, evaluate, norm, oppose, oppose_along
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.data import FilmData, FilmMemory, film_at, memory_at
-from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.film import fill_report, film_wrench
+from tribodyn.kernels.jit import entry, inlined, kernel
+from tribodyn.kernels.joints.film import Oil, fill_report, film_wrench
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData
-from tribodyn.kernels.joints.surface.memory import SurfaceMemory
+from tribodyn.kernels.joints.surface.memory import Scratch, SurfaceMemory
 from tribodyn.kernels.mechanism.beam import beam
 from tribodyn.kernels.mechanism.data import (
     BEAM,
@@ -40,15 +41,22 @@ from tribodyn.kernels.mechanism.data import (
     SPRINGS,
     TIME,
     WORK,
+    CouplingNow,
     MechanismData,
     MechanismMemory,
 )
 from tribodyn.kernels.mechanism.relative import whole_angle
 
 
-@kernel
+@entry
 def film_force(
-    mode: float, films: FilmData, memory: FilmMemory, k: int, now: Record, scratch: Record, oil: Any
+    mode: float,
+    films: Annotated[FilmData, STACKED],
+    memory: Annotated[FilmMemory, STACKED],
+    k: int,
+    now: Annotated[Record, CouplingNow],
+    scratch: Annotated[Record, Scratch],
+    oil: Annotated[Record, Oil, 1],
 ) -> None:
     """Add the wrench of film ``k`` to that of its coupling, ``now``, and what else ``mode`` asks for.
 

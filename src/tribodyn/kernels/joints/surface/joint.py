@@ -6,7 +6,7 @@ a kernel changes the scratch, and what it says.
 
 from typing import Annotated
 
-from tribodyn.core.arrays import FloatArray
+from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.jit import entry, kernel
@@ -122,8 +122,10 @@ def fill_entry_velocity(data: SurfaceData, s: int, memory: SurfaceMemory, at_sta
         of_node.update_entry_velocity(data, surface, memory, memory.scratch.station, at_start)
 
 
-@kernel
-def wrench(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: FloatArray) -> None:
+@entry
+def wrench(
+    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Record, Pose], out: FloatArray
+) -> None:
     """Fill ``out`` (6,) with the wrench on the shaft of joint ``j`` [N, N m]."""
     for k in range(6):
         out[k] = 0.0
@@ -133,9 +135,14 @@ def wrench(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: 
         _add_wrench(memory, out)
 
 
-@kernel
+@entry
 def wrench_and_jacobian(
-    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, out: FloatArray, jacobian: FloatArray
+    data: SurfaceData,
+    memory: SurfaceMemory,
+    j: int,
+    pose: Annotated[Record, Pose],
+    out: FloatArray,
+    jacobian: FloatMatrix,
 ) -> None:
     """Fill ``out`` (6,) with the wrench and ``jacobian`` (6, 12) with its derivatives in d, ϑ, v and ω."""
     for k in range(6):
@@ -225,16 +232,16 @@ def report(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Rec
         _fill_parts(memory, memory.reports[s])
 
 
-@kernel
+@entry
 def slide(data: SurfaceData, memory: SurfaceMemory, j: int, h: float) -> None:
     """Add the sliding in ``h`` [s], as at the last report, to the sliding load."""
     for s in range(data.joints[j], data.joints[j + 1]):
         over_surface.slide(data, s, memory, h * memory.strains[s, SHARE])
 
 
-@kernel
+@entry
 def pressure_field(
-    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, pressure: FloatArray
+    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Record, Pose], pressure: FloatArray
 ) -> None:
     """Fill the nodes of joint ``j`` in ``pressure`` (n_nodes,) with P_c [Pa]; points have none."""
     for s in range(data.joints[j], data.joints[j + 1]):
@@ -242,9 +249,9 @@ def pressure_field(
         fill_pressure(data, s, memory, pressure)
 
 
-@kernel
+@entry
 def update_entry_velocity(
-    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, at_start: float
+    data: SurfaceData, memory: SurfaceMemory, j: int, pose: Annotated[Record, Pose], at_start: float
 ) -> None:
     """Let contact of joint ``j`` begin and end at the end of an accepted step."""
     for s in range(data.joints[j], data.joints[j + 1]):
