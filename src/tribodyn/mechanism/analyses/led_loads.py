@@ -26,6 +26,9 @@ from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
 #: Names of parameters of laws: where friction is developed, and the least speed at which contact begins.
 SLIP: Final = "slip_velocity"
 ENTRY: Final = "least_rate"
+#: Factors of slip velocities: the friction of shafts that walk turns within a ten-millionth of a step, or a
+#: hundred-thousandth where there is no equilibrium otherwise.
+_BLURS: Final = (1.0e4, 1.0e3, 1.0e2, 1.0)
 _FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
 
 
@@ -64,6 +67,7 @@ class LedLoads(JointLoads):
         ideal = placed(System(assembly.model.counterpart), assembly)
         super().__init__(assembly, ideal, over_loads=True)
         self.data = developed(self.data, assembly.model, slip)
+        self._slips_given = self.data.contact.surfaces["slip_velocity"].copy()
         self._direction = 1.0
         self._centred: LinearEquations | None = None
         self._walked: Callable[[FloatArray], FloatArray] | None = None
@@ -90,6 +94,7 @@ class LedLoads(JointLoads):
             for now in (self.ideal.now, self.real.now, self.memory.now):
                 now.couplings["angle_mark"] = marks
         self.state[:], self._direction, self.largest = state, direction, 0.0
+        self.data.contact.surfaces["slip_velocity"] = self._slips_given
         self._centred, self.waits = centred, centred is not None
 
     def walk(
@@ -102,6 +107,12 @@ class LedLoads(JointLoads):
         without it.
         """
         self._walked, self.pace, self._led = walked, 0.0 if walked is None else pace, led
+        self.blurs = () if walked is None else _BLURS
+
+    def restore(self, kept: tuple[FloatArray, FloatArray, FloatArray], factor: float) -> None:
+        """Put the bodies back, and develop friction at a multiple of its slip velocities."""
+        super().restore(kept, factor)
+        self.data.contact.surfaces["slip_velocity"] = factor * self._slips_given
 
     def walking(self) -> FloatArray:
         """Return the state with the velocities by which shafts slip, shape (13 n,)."""

@@ -33,6 +33,7 @@ from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
 from tribodyn.mechanism.assembly.positions import DrivePath, walked
+from tribodyn.mechanism.assembly.shaft_motions import products
 from tribodyn.mechanism.assembly.start import settled
 from tribodyn.mechanisms.self_checks import TOO_CLOSE
 
@@ -249,12 +250,10 @@ class Equilibria:
 
     def _displaced(self, ideal: FloatArray, ways: FloatArray) -> FloatArray:
         """Return the ideal state, displaced, shape (n_bodies, 13)."""
-        from scipy.spatial.transform import Rotation
-
-        found = ideal.copy()
+        found, half = ideal.copy(), 0.5 * ways[:, 3:]
         found[:, :ORIENTATION] += ways[:, :3]
-        turned = Rotation.from_rotvec(ways[:, 3:]) * rotations(found[:, ORIENTATION:VELOCITY])
-        found[:, ORIENTATION:VELOCITY] = np.roll(turned.as_quat(), 1, axis=1)
+        turn = np.hstack([np.sqrt(np.maximum(1.0 - np.sum(half**2, axis=1, keepdims=True), 0.0)), half])
+        found[:, ORIENTATION:VELOCITY] = _after(turn, found[:, ORIENTATION:VELOCITY])
         return np.asarray(found)
 
     def _remember(self, ideal: FloatArray) -> None:
@@ -269,11 +268,11 @@ class Equilibria:
             return
         # Two steps back: the rate is then exact to the second order.
         last = (4.0 * self._ways[-1] - self._ways[0]) / 3.0 if len(self._ways) > 1 else self._ways[-1]
-        into_bodies = rotations(ideal[:, ORIENTATION:VELOCITY]).inv()
+        into_bodies = rotations(ideal[:, ORIENTATION:VELOCITY]).inv().as_matrix()
 
         def walked(state: FloatArray) -> FloatArray:
             ways = _ways(state, ideal) - last
-            ways[:, 3:] = into_bodies.apply(ways[:, 3:])
+            ways[:, 3:] = products(into_bodies, ways[:, 3:, None])[..., 0]
             return ways
 
         led = None if self.middle is not None else float(self._path.forward[number]) * ideal[:, VELOCITY:]
@@ -295,11 +294,22 @@ class Equilibria:
 
 
 def _ways(state: FloatArray, ideal: FloatArray) -> FloatArray:
-    """Return displacements and rotations from the ideal state (n_bodies, 13), shape (n_bodies, 6)."""
+    """Return displacements and rotations from the ideal state (n_bodies, 13), shape (n_bodies, 6).
+
+    Rotations are axes times twice the sine of half the angle.
+    """
     real = state.reshape(ideal.shape)
-    after, before = (rotations(found[:, ORIENTATION:VELOCITY]) for found in (real, ideal))
+    before = ideal[:, ORIENTATION:VELOCITY] * (1.0, -1.0, -1.0, -1.0)
+    turn = _after(real[:, ORIENTATION:VELOCITY], before)
     ways = real[:, :ORIENTATION] - ideal[:, :ORIENTATION]
-    return np.hstack([ways, (after * before.inv()).as_rotvec()])
+    return np.hstack([ways, np.where(turn[:, :1] < 0.0, -2.0, 2.0) * turn[:, 1:]])
+
+
+def _after(second: FloatArray, first: FloatArray) -> FloatArray:
+    """Return the quaternions of rotations after others, shape (n, 4)."""
+    (a, b, c, d), (p, q, r, s) = second.T, first.T
+    parts = a * p - b * q - c * r - d * s, a * q + b * p + c * s - d * r
+    return np.stack([*parts, a * r - b * s + c * p + d * q, a * s + b * r - c * q + d * p], axis=1)
 
 
 def _fastest(states: FloatArray, size: float) -> float:

@@ -11,6 +11,7 @@ or, at rest, of the last one or of the one that is about to begin.
 One file because all steps of the search change the same displaced bodies.
 """
 
+import math
 from collections.abc import Iterator
 from typing import Final
 
@@ -39,7 +40,9 @@ from tribodyn.mechanism.assembly.shaft_motions import (
     JointNodes,
     ShaftMotions,
     alike,
+    applied,
     forces,
+    length,
     nodes_of,
     of_bodies,
     products,
@@ -103,6 +106,7 @@ class JointLoads:
         self.surveyed = False
         self.pace = 0.0  # rate of slips over the displacement that changes them [1/s]
         self.ahead: FloatArray | None = None
+        self.blurs: tuple[float, ...] = ()  # factors of slip velocities on the way to friction as it is
 
     def look(self) -> None:
         """Look at the motions that clearances allow where the bodies are, and at how these are to move.
@@ -119,12 +123,12 @@ class JointLoads:
         self.ideal.refresh()
         self.begin_to_move()
         collect(self.ideal.now.bodies, self.state)
-        g, self.root, length = self.ideal.scaled()
+        g, self.root, lengths = self.ideal.scaled()
         self.held = row_space(g, self.ideal.rank())
         self.velocity = self.state.reshape(-1, N_STATES)[:, VELOCITY:].copy()
         carried, self.adrift = self.divided(self.held.free)
         self.slipping = self.velocity
-        self.wanted = self.held.solve(self.ideal.entries("gamma") / length)
+        self.wanted = self.held.solve(self.ideal.entries("gamma") / lengths)
         # Where real joints hold something, so do the ideal ones.
         allowed = self.held.left_by(self.real.scaled()[0], self.real.rank())
         self.carried, self.travelled = carried.shape[1], np.zeros(carried.shape[1])
@@ -139,7 +143,7 @@ class JointLoads:
             # Once, from the middle: traction itself must not decide where it points.
             self.ahead = self._ahead() if self.ahead is None else self.ahead
             self.slipping = self.ahead
-        if self.over_loads:
+        if self.over_loads and self.largest == 0.0:
             self.largest = self.size_of_loads()
         self.missing = self._missing()
 
@@ -194,6 +198,14 @@ class JointLoads:
         self.way[:] = self.travelled[:] = 0.0
         return np.asarray((ends[1] - ends[0]) / (2.0 * step[k]))
 
+    def kept(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return where the bodies are since they were looked at, for :meth:`restore`."""
+        return self.state.copy(), self.way.copy(), self.travelled.copy()
+
+    def restore(self, kept: tuple[FloatArray, FloatArray, FloatArray], factor: float) -> None:
+        """Put the bodies back, and develop friction at a multiple of its slip velocities."""
+        self.state[:], self.way[:], self.travelled[:] = kept
+
     def close(self) -> None:
         """Close the ideal joints of the mechanism."""
         self.real.close()
@@ -208,7 +220,7 @@ class JointLoads:
 
     def unbalance(self) -> float:
         """Return the loads that do not balance where bodies were looked at last, over all loads."""
-        return float(dense.norm(self.residual())) / (self.largest or 1.0)
+        return length(self.residual()) / (self.largest or 1.0)
 
     def size_of_loads(self) -> float:
         """Return the size of all loads but contact, inertia forces included, over the roots of masses."""
@@ -267,6 +279,8 @@ class JointLoads:
 
     def _pushes(self, wrench: str, couplings: IntArray) -> FloatArray:
         """Return the wrench on the bodies from a wrench of some couplings, shape (6 n,)."""
+        if couplings.size == 0:
+            return np.zeros(6 * self.n)
         pushes = products(self.couplings[wrench][couplings, None], self.couplings["H"][couplings])
         return forces(pushes, self.ends[:, couplings], self.n)
 
@@ -282,22 +296,23 @@ class JointLoads:
     def _slips(self) -> FloatArray:
         """Return the largest slip of each joint over the one at which its traction is developed."""
         self._evaluate(self.slipping)
-        twists = [(self.couplings["twist"][contact.coupling], contact) for contact in self.contacts]
-        return np.array(
-            [
-                np.linalg.norm(twist[:3] + np.cross(twist[3:], contact.position), axis=1).max() / contact.slip
-                for twist, contact in twists
-            ]
-        )
+        twists = self.couplings["twist"][self.touching]
+        found = []
+        for (u, v, w, a, b, c), contact in zip(twists.tolist(), self.contacts, strict=True):
+            x, y, z = contact.position.T
+            slip = u + (b * z - c * y), v + (c * x - a * z), w + (a * y - b * x)
+            square = slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]
+            found.append(math.sqrt(np.max(square)) / contact.slip)
+        return np.array(found)
 
     def residual(self) -> FloatArray:
         """Return the loads that do not balance, over the motions that clearances allow, shape (m,)."""
-        found = np.asarray(dense.product(self.motions.T, self._evaluated()) - self.asked)
+        found = np.asarray(applied(self.motions.T, self._evaluated()) - self.asked)
         if self.carried or self.surveyed:
             # What the motions themselves change on the way.
-            found -= dense.product(self.missing, self.way)
+            found -= applied(self.missing, self.way)
         if not self.over_loads:
-            self.largest = max(self.largest, float(dense.norm(found)))
+            self.largest = max(self.largest, length(found))
         return found
 
     def stiffness(self) -> tuple[FloatArray, FloatArray]:
@@ -353,7 +368,7 @@ class JointLoads:
     def change(self, step: FloatArray) -> tuple[float, float]:
         """Return by how much a step (m,) changes gaps at most, over the roughness and over gaps as drawn."""
         ask()
-        moved = dense.product(self.motions, step)
+        moved = applied(self.motions, step)
         bodies = of_bodies(moved[:, None], self.ends[:, self.touching])
         way = ways(self.couplings["H"][self.touching], bodies)[..., 0]
         over_roughness = over_gap = 0.0
@@ -370,14 +385,14 @@ class JointLoads:
         if self.carried == 0 and not self.bends:
             return 0.0
         first = 0 if self.bends else step.size - self.carried
-        moved = dense.product(self.motions[:, first:], step[first:])
+        moved = applied(self.motions[:, first:], step[first:])
         return float(np.max(np.abs(moved) / self.units))
 
     def move(self, step: FloatArray) -> None:
         """Displace the bodies by a step (m,)."""
         self.way += step
         self.travelled += step[step.size - self.carried :]
-        change, bodies = dense.product(self.motions, step), self.memory.now.bodies
+        change, bodies = applied(self.motions, step), self.memory.now.bodies
         place(self.state, bodies)
         for b in range(self.n):
             move(bodies[b], change[6 * b : 6 * b + 6], np.zeros(4))

@@ -4,6 +4,7 @@ Sums run in the order of :func:`tribodyn.kernels.dense.product`, coupling by cou
 processor, whatever is taken together.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -26,6 +27,17 @@ def products(first: FloatArray, second: FloatArray) -> FloatArray:
     for k in range(1, first.shape[-1]):
         found += first[..., :, k : k + 1] * second[..., k : k + 1, :]
     return found
+
+
+def applied(matrix: FloatArray, vector: FloatArray) -> FloatArray:
+    """Return the product of a small matrix (..., n) and a vector (n,), without a call of a kernel."""
+    sums = (matrix * vector).cumsum(axis=-1)  # in order, with the bits of the kernel
+    return np.asarray(sums[..., -1] + 0.0 if vector.size else matrix.sum(axis=-1))
+
+
+def length(vector: FloatArray) -> float:
+    """Return the root of the sum of squares of a vector (n,)."""
+    return math.sqrt(applied(vector, vector))
 
 
 def ways(arms: FloatArray, bodies: FloatArray) -> FloatArray:
@@ -138,10 +150,10 @@ class JointNodes:
 
     def gaps(self, place: FloatArray) -> FloatArray:
         """Return the gaps [m] at displacement and tilt (d, φ), shape (6,)."""
-        axis = dense.product(self.gradient[:, :3], np.array([place[4], -place[3], 1.0]))
+        axis = applied(self.gradient[:, :3], np.array([place[4], -place[3], 1.0]))
         squares = 0.5 * self.lean * (axis - self.gradient[:, 2]) ** 2
         return np.asarray(
-            self.drawn - dense.product(self.gradient, place) + self.slides * place[2] * axis - squares
+            self.drawn - applied(self.gradient, place) + self.slides * place[2] * axis - squares
         )
 
 

@@ -11,11 +11,11 @@ from typing import Final
 import numpy as np
 
 from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels import dense
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.decompositions import shortest
 from tribodyn.mechanism.assembly.equilibrium import JointLoads
+from tribodyn.mechanism.assembly.shaft_motions import applied, length
 from tribodyn.mechanism.assembly.start_speeds import speeds_of
 
 
@@ -40,6 +40,7 @@ _MOST_LOOKS: Final = 20
 #: Looks after which the stiffness is found by looking: where a force vanishes, little else has any.
 _PLAIN_LOOKS: Final = 8
 _MOST_STEPS: Final = 100
+_FEWER_STEPS: Final = 40  #: The same where friction may turn less sharply.
 _SETTLED: Final = 1.0e-3  #: Change of a gap, over the roughness, that counts as zero.
 _BALANCED: Final = 1.0e-6  #: Load over the largest one met on the way that counts as zero.
 _LEAST: Final = 1.0  #: Stiffness of springs where there is no contact yet [N/m].
@@ -50,6 +51,8 @@ _STIFFER: Final = 4.0
 _SOFTER: Final = 3.0  #: Factors by which springs change.
 _BACK: Final = 0.5  #: Share of the load along a step that may have turned against it.
 _NEARER: Final = 4.0  #: Factor by which bodies that do not come to rest count as near from look to look.
+#: Change of gaps over the roughness after which the possible motions are the same, freedoms aside.
+_SAME: Final = 1.0e-2
 _FAR: Final = 0.5  #: Part of the largest gap of a joint that a step may not pass.
 _SHORT: Final = 0.1  #: Longest step along freedoms, turns [rad] and lengths over the size of the mechanism.
 _FINE: Final = 1.0e-4  #: Step along freedoms, in the same units, that counts as the roughness.
@@ -69,13 +72,13 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
             loads.look()
         if quiet and loads.unbalance() <= _BALANCED:
             return loads.state
-        steps, moved, soft = _newton(loads, soft, floor, change) if loads.motions.size else (0, 0.0, soft)
-        if steps == _MOST_STEPS and loads.bends:
+        steps, moved, soft = _eased(loads, soft, floor, change) if loads.motions.size else (0, 0.0, soft)
+        if math.isinf(moved) and loads.bends:
             floor = _FLOOR_OF_BEAMS
         if loads.waits:
             loads.waits = False
             continue
-        if steps == 0:
+        if steps == 0 or (near and moved < _SAME and look == 0 and not loads.carried):
             return loads.state if loads.overlapping() is None else None
         quiet = moved < near and loads.overlapping() is None
         if loads.lost() is not None:
@@ -83,6 +86,25 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
         # Where a force passes through zero its shaft lies anywhere, and no look is the last.
         near *= _NEARER
     return None
+
+
+def _eased(loads: JointLoads, soft: float, floor: float, least: float) -> tuple[int, float, float]:
+    """Make steps as by :func:`_newton`; where they do not end, anew as friction turns ever more sharply.
+
+    It stays as it was when they ended last where they do not end with friction as sharp as it is.
+    """
+    kept, before = loads.kept(), 1.0
+    found = _newton(loads, soft, floor, least)
+    if not math.isinf(found[1]):
+        return found
+    for factor in loads.blurs:
+        loads.restore(kept, factor)
+        sharper = _newton(loads, found[2], floor, least)
+        if factor == loads.blurs[-1] and math.isinf(sharper[1]) and not math.isinf(found[1]):
+            loads.restore(kept, before)
+            break
+        found, kept, before = sharper, loads.kept(), factor
+    return found
 
 
 def _newton(loads: JointLoads, soft: float, floor: float, least: float) -> tuple[int, float, float]:
@@ -93,7 +115,8 @@ def _newton(loads: JointLoads, soft: float, floor: float, least: float) -> tuple
     down to ``floor`` of the largest stiffness.
     """
     residual, moved = loads.residual(), 0.0
-    for steps in range(_MOST_STEPS):
+    most = _FEWER_STEPS if loads.blurs else _MOST_STEPS
+    for steps in range(most):
         stiffness, even = loads.stiffness()
         stiffest = float(np.max(np.abs(stiffness)))
         if loads.over_loads:
@@ -108,16 +131,16 @@ def _newton(loads: JointLoads, soft: float, floor: float, least: float) -> tuple
             if way < _FAR:
                 loads.move(step)
                 after = loads.residual()
-                if dense.product(after, step) >= -_BACK * dense.product(residual, step) or (
-                    loads.over_loads and dense.norm(after) <= _BALANCED * loads.largest
+                if applied(after, step) >= -_BACK * applied(residual, step) or (
+                    loads.over_loads and length(after) <= _BALANCED * loads.largest
                 ):
                     break
                 loads.undo(step)
             soft *= _STIFFER
         else:
-            return _MOST_STEPS, math.inf, soft
+            return most, math.inf, soft
         residual, soft, moved = after, soft / _SOFTER, moved + change
         far = min(far, _SHORT)
-        if max(change, far / _FINE) < least and dense.norm(after) <= _BALANCED * loads.largest:
+        if max(change, far / _FINE) < least and length(after) <= _BALANCED * loads.largest:
             return steps, moved, soft
-    return _MOST_STEPS, math.inf, soft
+    return most, math.inf, soft
