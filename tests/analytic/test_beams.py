@@ -59,9 +59,7 @@ def bent(force: float, **changes: Any) -> Any:
 
 
 @pytest.mark.parametrize("segments", [2, 8])
-def test_the_tip_of_a_cantilever_moves_by_its_closed_form_whatever_the_number_of_pieces(
-    segments: int,
-) -> None:
+def test_the_tip_of_a_cantilever_moves_by_its_closed_form_whatever_the_number_of_pieces(segments):
     place = bent(1.0, bodies__beam__beam__segments=segments)["position"].sel(body=f"beam:{segments}").values
     shear = LENGTH / (5.0 / 6.0 * 200e9 / 2.6 * 1e-4)
     assert place[2] == pytest.approx(LENGTH**3 / (3.0 * RIGIDITY) + shear, rel=1e-4)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
-from tribodyn.contact import SurfacePair, law
+from tribodyn.contact import law
 from tribodyn.contact.bounce import undamped_depth
 from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, assemble, contact_table, pose_at
@@ -58,9 +58,7 @@ def drop(data: SurfaceData, along: FloatArray, start: float, speed: float, sigma
 
 @pytest.mark.parametrize("wanted", [0.5, 0.9])
 @pytest.mark.parametrize("shape", WALLS)
-def test_over_the_surface(
-    shape: str, wanted: float, make_clearance: MakeClearance, table_1_pair: SurfacePair
-) -> None:
+def test_over_the_surface(shape, wanted, make_clearance, table_1_pair):
     chosen = law("rsdc", table_1_pair, damping_factor="calibrated", restitution=wanted)
     along, sigma = WALLS[shape], table_1_pair.roughness_rms
     clearance = make_clearance(
@@ -84,9 +82,7 @@ def test_over_the_surface(
 
 @pytest.mark.parametrize("shape", ["cylinder", "sphere"])
 @pytest.mark.parametrize("wanted", [0.5, 0.9])
-def test_at_points(
-    shape: str, wanted: float, make_clearance: MakeClearance, table_1_pair: SurfacePair
-) -> None:
+def test_at_points(shape, wanted, make_clearance, table_1_pair):
     chosen = law("gw", table_1_pair, damping_factor="calibrated", restitution=wanted)
     table = contact_table(POINT, chosen, make_clearance(shape).shape, onset=4.0, smoothing_width=1.0)
     data = assemble([make_clearance(shape, contact=POINT, coefficient=0.0, table=table)])
@@ -94,9 +90,7 @@ def test_at_points(
     assert drop(data, X, GAP, 0.02, table_1_pair.roughness_rms) == pytest.approx(wanted, abs=1e-3)
 
 
-def test_a_ball_at_a_point_has_the_force_of_hertz(
-    make_clearance: MakeClearance, table_1_pair: SurfacePair
-) -> None:
+def test_a_ball_at_a_point_has_the_force_of_hertz(make_clearance, table_1_pair):
     # F = (4/3) E √(R r/c) δ^1.5, whole at its one point.
     table = contact_table(
         POINT, law("ke", table_1_pair), make_clearance("sphere").shape, onset=4.0, smoothing_width=1.0

@@ -131,15 +131,6 @@ def test_a_turning_pin_rubs_at_its_radius(make_clearance: MakeClearance) -> None
     assert out[1] == pytest.approx(-MU * load, rel=1e-6)
 
 
-def test_a_turning_collar_rubs_at_its_mean_radius(make_clearance: MakeClearance) -> None:
-    data = assemble([make_clearance("annulus", coefficient=MU)])
-    out = spinning(data, np.array([0.0, 0.0, -16e-6]), 5.0)
-    mean = 2.0 / 3.0 * (9e-3**3 - 6e-3**3) / (9e-3**2 - 6e-3**2)
-    assert out[2] > 0.0
-    # As for the pin.
-    assert out[5] == pytest.approx(-MU * out[2] * mean, rel=1e-6)
-
-
 def test_a_ball_drills_under_an_axial_load(make_clearance: MakeClearance) -> None:
     # Turning about the load, a ball slides at R cos λ: M = −μ Σ A p R cos λ, and no force across.
     data = assemble([make_clearance("sphere", coefficient=MU, band=0.5 * math.pi, grid=(64, 64))])
@@ -150,14 +141,6 @@ def test_a_ball_drills_under_an_axial_load(make_clearance: MakeClearance) -> Non
     assert out[5] == pytest.approx(expected, rel=1e-4)
     # All around the pole the rest cancels, to rounding.
     np.testing.assert_allclose(out[[0, 1, 3, 4]], 0.0, rtol=0.0, atol=1e-11 * np.abs(out).max())
-
-
-def test_slow_slip_is_held_in_proportion(make_clearance: MakeClearance) -> None:
-    data = assemble([make_clearance("annulus", coefficient=MU)])
-    d, out = np.array([0.0, 0.0, -16e-6]), np.empty(6)
-    wrench(data, new_memory(data), 0, pose_at(d, None, (1e-8, 0.0, 0.0)), out)
-    # s/√(s² + u_s²) at 1e-3 of u_s is 1e-3 to 5e-7.
-    assert out[0] == pytest.approx(-MU * out[2] * 1e-3, rel=1e-6)
 
 
 def test_sliding_takes_its_friction_from_turning(make_clearance: MakeClearance) -> None:

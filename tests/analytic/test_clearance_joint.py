@@ -12,7 +12,6 @@ from tribodyn.contact import SurfacePair, law
 from tribodyn.contact.bulk import Bulk
 from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.joints import BushingJoint
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.joints.bushing import new_memory as bushing_memory
 from tribodyn.joints.bushing import pose_at as bushing_pose
@@ -175,9 +174,7 @@ def test_the_report_adds_up_to_the_wrench(kind: str, kinds: dict[str, Clearance]
 @pytest.mark.parametrize(
     "kind", ["cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "cylinder at points"]
 )
-def test_a_journal_of_revolution_spins_freely_without_friction(
-    kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
-) -> None:
+def test_a_journal_of_revolution_spins_freely_without_friction(kind, kinds, make_clearance):
     # Tilted and pressed, it may have no moment about its own axis: spinning changes no gap. With the angular
     # velocity instead of the rate of the tilt in the approach speeds it would have one, of first order in it.
     shape = kind.split(maxsplit=1)[0]
@@ -200,9 +197,7 @@ def test_a_journal_of_revolution_spins_freely_without_friction(
 @pytest.mark.parametrize(
     "kind", ["cylinder", "wide", "piston", "ball", *GUIDES, "slot", "cylinder at points"]
 )
-def test_what_slides_is_free_to(
-    kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance
-) -> None:
+def test_what_slides_is_free_to(kind, kinds, make_clearance):
     # However far along its axis, a shaft has the same gaps: no force on it along its axis, and the same
     # forces on the socket. A ball and a piston slide along the bore.
     shape = kind.split(maxsplit=1)[0]
@@ -237,13 +232,7 @@ BUSHING_GRID = (48, 8)
 @pytest.mark.parametrize("radius", [6e-3, 200e-3])
 @pytest.mark.parametrize("worn", [False, True])
 @pytest.mark.parametrize("friction", [0.0, 0.1])
-def test_a_cylinder_is_the_bushing(
-    friction: float,
-    worn: bool,
-    radius: float,
-    make_joint: Callable[..., BushingJoint],
-    make_clearance: MakeClearance,
-) -> None:
+def test_a_cylinder_is_the_bushing(friction, worn, radius, make_joint, make_clearance):
     # The bushing names the point at −(cos θ, sin θ) θ, so its nodes are half a turn on; its φ_y and M_y are
     # left-handed, its moments those that work on tilts. It slides around the axis only: with friction the
     # journal stands upright.
@@ -280,9 +269,7 @@ def test_a_cylinder_is_the_bushing(
         np.testing.assert_allclose(turned, before, rtol=0.0, atol=1e-12 * before.max())
 
 
-def test_ends_at_points_are_those_of_the_bushing(
-    make_joint: Callable[..., BushingJoint], make_clearance: MakeClearance, table_1_pair: SurfacePair
-) -> None:
+def test_ends_at_points_are_those_of_the_bushing(make_joint, make_clearance, table_1_pair):
     bushing = make_joint()
     table = point_table(POINT, law("rsdc", table_1_pair), bushing.geometry)
     old = dataclasses.replace(bushing, contact=POINT, table=table).data()

@@ -86,9 +86,7 @@ def test_elastic_bodies_are_a_part_of_their_own(tmp_path: Path) -> None:
     [("vsv", "one joint with clearance, which causes all"), ("ideal", "no joint has clearance")],
     ids=["vsv", "ideal"],
 )
-def test_without_outputs_or_clearances_there_is_nothing_to_divide(
-    case: str, said: str, tmp_path: Path
-) -> None:
+def test_without_outputs_or_clearances_there_is_nothing_to_divide(case, said, tmp_path):
     chosen = press().case() if case == "ideal" else td.load_case(case)
     with pytest.raises(InputError, match=said):
         contributions(chosen, directory=tmp_path)

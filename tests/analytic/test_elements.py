@@ -53,9 +53,7 @@ def gear_pair(flipped: tuple[bool, bool], against: bool, ratio: float, distance:
 
 @pytest.mark.parametrize("flipped", [(False, False), (True, False), (False, True), (True, True)])
 @pytest.mark.parametrize("against", [False, True])
-def test_a_gear_pair_turns_and_loads_both_shafts_as_newton_and_euler_say(
-    flipped: tuple[bool, bool], against: bool
-) -> None:
+def test_a_gear_pair_turns_and_loads_both_shafts_as_newton_and_euler_say(flipped, against):
     # Wheels of 30 and 60 mm; the teeth push the second along y.
     result = gear_pair(flipped, against, -0.5, 90.0)
     rate = 0.3 / (2e-3 + 0.25 * 5e-3)
@@ -192,9 +190,7 @@ def jack(torque: float, axis: int, lead: float = 5.0, kind: str = "two") -> xr.D
 @pytest.mark.parametrize("axis", [1, -1])
 @pytest.mark.parametrize("lead", [5.0, -5.0])
 @pytest.mark.parametrize("kind", ["two", "one"])
-def test_a_screw_jack_without_friction_holds_and_lifts_as_its_lead_says(
-    axis: int, lead: float, kind: str
-) -> None:
+def test_a_screw_jack_without_friction_holds_and_lifts_as_its_lead_says(axis, lead, kind):
     # A right-handed screw that turns about z pulls its nut down; the torque −W lead/2π holds that.
     pitch = 1e-3 * lead / (2.0 * math.pi)
     hold = -20.0 * G * pitch
@@ -276,9 +272,7 @@ def test_the_efficiency_of_a_screw_jack_is_that_of_its_lead_angle_and_friction_a
         ({"radius": "8 mm"}, "the force of screw first is not unique", "screws.first.friction_coefficient"),
     ],
 )
-def test_friction_of_a_thread_needs_its_radius_and_a_force_that_is_unique(
-    given: dict[str, str], words: str, key: str
-) -> None:
+def test_friction_of_a_thread_needs_its_radius_and_a_force_that_is_unique(given, words, key):
     mechanism = drawn("Two threads")
     wheel(mechanism, "screw", 1.0, 2e-4, "0, 0, 0 mm")
     mechanism.body("nut", mass="20 kg", centre="0, 0, 30 mm", inertia="0.1, 0.1, 0.1 kg m^2")
@@ -409,9 +403,7 @@ def test_two_drives_of_geared_wheels_drive_one_freedom() -> None:
         ({"ratio": 1.0}, "have no pitch point"),
     ],
 )
-def test_misdescribed_gears_are_refused_with_the_reason(
-    change: dict[str, object], reason: str | None
-) -> None:
+def test_misdescribed_gears_are_refused_with_the_reason(change, reason):
     mechanism = drawn("Gears")
     for name, x in (("a", 0), ("b", 90), ("c", 0)):
         wheel(mechanism, name, 1.0, 2e-3, f"{x}, 0, 0 mm")

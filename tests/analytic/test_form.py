@@ -50,14 +50,6 @@ def test_wrench_is_the_integral_over_the_formed_gap(make_joint, form):
     assert wrench[3] == pytest.approx(moment, rel=1e-4)
 
 
-def test_nodes_measure_the_bushing(make_joint):
-    for form in FORMS:
-        joint = replace(make_joint(grid=(96, 16)), form=form)
-        whole = 2.0 * np.pi * joint.geometry.bore_radius * LENGTH
-        assert joint.node_area.sum() * 96 == pytest.approx(whole, rel=1e-13)
-        assert np.all(np.diff(joint.z) > 0.0)
-
-
 def test_a_corner_costs_no_order(make_joint):
     """Points on each side of the corner: a rule over all would be of order 2."""
     form = Form(0.0, 2e-3, 5e-6)
@@ -92,11 +84,6 @@ def test_a_crown_takes_pressure_from_the_edge():
 def test_forms_that_cannot_be(changes, words):
     with pytest.raises(InputError, match=words):
         td.simulate(td.load_case("vsv").replace(changes))
-
-
-def test_the_film_knows_no_form():
-    with pytest.raises(InputError, match="oil film"):
-        td.load_case("journal-oil").replace({"joints.bearing.clearance.form.crown": "1 um"})
 
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 15.0))

@@ -69,14 +69,14 @@ def of_guide(result: xr.Dataset, name: str) -> FloatArray:
 @cache
 def static(turned: bool = False) -> xr.Dataset:
     drawn = slider_crank(TURNED if turned else UPRIGHT, BLOCK | {"friction_coefficient": 0.05}, **SMOOTH)
-    return td.simulate(drawn.case().replace({"run.analysis": "static", "run.positions": "24"}))
+    return td.simulate(drawn.case().replace({"run.analysis": "static", "run.positions": "16"}))
 
 
 def test_the_tilt_is_that_of_two_corners() -> None:
     """Where the block leans on opposite faces, as far as play and length of its faces let it."""
     found = static()
     leaning = of_guide(found, "guide_contact") == TILTED
-    assert 5 < np.count_nonzero(leaning) < leaning.size
+    assert 3 < np.count_nonzero(leaning) < leaning.size
     tilt = np.abs(of_guide(found, "tilt_y"))[leaning] + np.abs(of_guide(found, "tilt_x"))[leaning]
     assert tilt == pytest.approx(2.0 * PLAY / LENGTH, rel=0.01)
 
@@ -84,7 +84,7 @@ def test_the_tilt_is_that_of_two_corners() -> None:
 def test_the_sequence_of_contacts_over_a_cycle_is_that_of_force_and_moment() -> None:
     """A block lies on a face while the middle of its load is between its ends, else on opposite faces."""
     found = static()
-    kinematic = slider_crank().case().replace({"run.analysis": "kinematic", "run.positions": "24"})
+    kinematic = slider_crank().case().replace({"run.analysis": "kinematic", "run.positions": "16"})
     ideal = td.simulate(kinematic)
     force, moment = (of_guide(ideal, f"reaction_{name}") for name in ("force", "moment"))
     times = found["time"].values
@@ -93,13 +93,13 @@ def test_the_sequence_of_contacts_over_a_cycle_is_that_of_force_and_moment() -> 
         for values in (np.abs(force[:, 0]) * 0.5 * LENGTH, np.abs(moment[:, 1]))
     )
     clear = np.abs(across - about) > 0.05 * np.maximum(across, about)
-    assert np.count_nonzero(clear) > 18
+    assert np.count_nonzero(clear) > 12
     expected, contact = np.where(about > across, TILTED, FACE), of_guide(found, "guide_contact")
     assert set(expected[clear]) == {TILTED, FACE}
     assert ((contact == TILTED) == (expected == TILTED))[clear].all()
     # With its load near an end a face of rough asperities leans by less than these let it.
     assert (contact[about < 0.7 * across] == FACE).all()
-    assert np.count_nonzero(contact == FACE) > 6
+    assert np.count_nonzero(contact == FACE) > 4
 
 
 def test_a_guide_that_is_turned_in_space_does_the_same() -> None:
@@ -143,7 +143,7 @@ def test_errors_by_superposition_are_those_of_smooth_rigid_walls(analysis: str) 
     """On a face the block is off by the play; its end swings by the tilt where it leans on both."""
     drawn = slider_crank().output("middle", "block", along=[0, 1, 0])
     drawn.output("lean", "block", quantity="angle", along=[0, 0, 1])
-    case = drawn.case().replace({"run.analysis": analysis, "run.positions": "24"})
+    case = drawn.case().replace({"run.analysis": analysis, "run.positions": "16"})
     result = td.simulate(
         case
         if analysis == "kinematic"
@@ -181,9 +181,7 @@ def test_a_block_on_its_face_vibrates_as_on_a_bed_of_springs(shape: str, through
 
 
 @pytest.mark.parametrize("stiffness", [2e6, 2e3])
-def test_a_block_on_a_spring_along_its_guide_vibrates_at_the_root_of_stiffness_over_mass(
-    stiffness: float,
-) -> None:
+def test_a_block_on_a_spring_along_its_guide_vibrates_at_the_root_of_stiffness_over_mass(stiffness):
     drawn = td.Mechanism(
         "Block", gravity="0, 0, -9.81 m/s^2", run={"duration": "0.1 s", "analysis": "vibrations"}
     )

@@ -32,9 +32,7 @@ def make(make_joint: MakeJoint, table_1_pair: SurfacePair) -> Callable[..., Bush
 
 
 @pytest.mark.parametrize(("name", "factor"), [("rsdc", "lankarani-nikravesh"), ("gt", "flores")])
-def test_restitution_depends_on_the_energy_not_on_speed_or_mass(
-    make: MakeJoint, name: str, factor: str
-) -> None:
+def test_restitution_depends_on_the_energy_not_on_speed_or_mass(make, name, factor):
     joint = make(name, factor, 0.6)
     speed = design_speed(joint, mass=MASS, pressure=50e6)
     slow = drop(joint, mass=16.0 * MASS, speed=0.25 * speed)

@@ -70,14 +70,6 @@ def test_life_of_each_joint_at_the_rate_of_one_cycle() -> None:
     assert "Worn deepest is joint wrist" in result.attrs["notes"]
 
 
-def test_bore_and_shaft_live_longer_than_what_both_wear_off() -> None:
-    # Rates of 4 to 1: the bore takes 4/5 of the depth, the shaft 1/5.
-    numbers = summarise(worn(**{"wear.depth_limit": "2 um", "wear.partner_wear_rate": "2.5e-14 m^2/N"}))
-    both = numbers["wear_life_cycles_wrist"]
-    assert numbers["bore_life_cycles_wrist"] == pytest.approx(both / 0.8)
-    assert numbers["shaft_life_cycles_wrist"] == pytest.approx(both / 0.2)
-
-
 def test_life_of_each_joint_in_a_campaign() -> None:
     result = worn(**{"wear.cycles": "1000", "wear.depth_limit": "2 um", "wear.jump_depth": "1"})
     numbers = summarise(result)

@@ -82,13 +82,6 @@ def test_a_follower_is_a_constant_moment_and_a_fixed_force_is_not() -> None:
     np.testing.assert_allclose(result.energy_in, work, atol=1e-4 * work.max())
 
 
-def test_components_and_a_direction_are_the_same_load() -> None:
-    parts = '[loads.push]\nbody = "disc"\npoint = "250, 0, 0 mm"\nframe = "body"\n'
-    one = td.simulate(disc(f'{parts}force = "5 N"\ndirection = [0.6, 0.8, 0]\nmoment_z = "0.1 N m"\n'))
-    two = td.simulate(disc(f'{parts}force_x = "3 N"\nforce_y = "4 N"\nmoment_z = "0.1 N m"\n'))
-    np.testing.assert_allclose(one.joint_angle, two.joint_angle, rtol=1e-9)
-
-
 def test_a_force_against_the_velocity_slows_down_by_its_table_over_the_speed() -> None:
     """A constant force, a force in proportion to the speed, and a moment in proportion to it."""
     brake = 'frame = "motion"\nslip_velocity = "1e-9 m/s"\nslip_rate = "1e-9 rad/s"\n'

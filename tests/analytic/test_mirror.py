@@ -6,7 +6,6 @@ the mirror and does not. Forces along X change sign, and moments about Y and Z.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +14,7 @@ import xarray as xr
 
 from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.papers.cheng_2022.reduced.parameters import Lengths, Vsv
+from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 from tribodyn.simulation import simulate
 
@@ -57,9 +56,7 @@ def seen_in_a_mirror(name: str, values: FloatArray) -> FloatArray:
 
 @pytest.mark.parametrize("formulation", ["exact", "paper"])
 @pytest.mark.parametrize("friction", ["traction", "moment"])
-def test_the_equations_of_motion_are_mirrored(
-    make_vsv: Callable[..., Vsv], formulation: str, friction: str
-) -> None:
+def test_the_equations_of_motion_are_mirrored(make_vsv, formulation, friction):
     vsv = make_vsv(formulation, friction=friction)
     drive = replace(vsv.drive, start_angle=-vsv.drive.start_angle, speed_amplitude=-vsv.drive.speed_amplitude)
     air = replace(vsv.air, switch_angle=math.pi - vsv.air.switch_angle)

@@ -102,12 +102,6 @@ def test_a_sustained_load_leaves_the_clearance_as_error(worn_press: xr.Dataset) 
     assert "error_sustained_deg_way" not in numbers
 
 
-def test_ideal_joints_have_no_error() -> None:
-    result = td.simulate(press())
-    for output, most in (("way", 1e-7), ("lean", 1e-6), ("turn", 1e-12), ("stroke", 1e-7), ("speed", 1e-6)):
-        assert np.max(np.abs(of(result, "output_error", output))) < most, output
-
-
 def test_an_output_that_drives_leave_free_has_no_ideal_value() -> None:
     pendulum = (
         td.Mechanism("Pendulum", gravity="0, -9.81, 0 m/s^2", run={"duration": "20 ms"})
@@ -179,11 +173,6 @@ def test_an_output_at_a_dead_centre_depends_on_the_freedom_that_is_left() -> Non
     run = td.simulate(pushed("spring"))
     assert np.isnan(column(run, "output_error")).all()
     assert "output way depends on a freedom" in run.attrs["notes"]
-
-
-def test_a_joint_that_is_not_there_cannot_be_followed() -> None:
-    with pytest.raises(TribodynError, match=r"outputs.way.follows: .*mian.*main"):
-        pushed("motor", follows="mian").case()
 
 
 def test_a_reference_that_moves_carries_its_directions() -> None:

@@ -66,9 +66,7 @@ def test_motion_and_mean_forces_tend_to_the_ideal_ones(ideal: Run, real: dict[fl
     assert errors[-1] < errors[0]
 
 
-def test_a_loose_wrist_flies_and_strikes_as_in_the_literature(
-    make_clearance: Callable[..., Clearance], ideal: Run
-) -> None:
+def test_a_loose_wrist_flies_and_strikes_as_in_the_literature(make_clearance, ideal):
     """Half a millimetre, steel, Lankarani and Nikravesh with e = 0.9: chaotic, so compared in kind."""
     pair = SurfacePair((207e9, 207e9), (0.3, 0.3), (0.4e-6, 0.4e-6), 2e9, 0.03e12, 8e-6)
     chosen = law("ceb", pair, damping_factor="lankarani-nikravesh", restitution=0.9)
@@ -101,9 +99,7 @@ def test_a_loose_wrist_flies_and_strikes_as_in_the_literature(
 
 
 @pytest.mark.parametrize("socket", ["ground", "crank"])
-def test_a_driven_real_joint_turns_the_same_way_wherever_its_socket_is(
-    make_clearance: Callable[..., Clearance], socket: str
-) -> None:
+def test_a_driven_real_joint_turns_the_same_way_wherever_its_socket_is(make_clearance, socket):
     real = make_clearance("flanged", radius=9.5e-3, flange=14e-3)
     driven = with_clearance(slider_crank(), real, "main", socket=socket)
     result = run(driven, TURN * np.linspace(0.0, 0.1, 11), 1e-4)

@@ -76,9 +76,7 @@ def check_reports(found: SurfaceMemory, expected: SurfaceMemory, force: float, m
 
 @pytest.mark.parametrize("grid", GRIDS)
 @pytest.mark.parametrize("shape", SHAPES)
-def test_rings_give_what_their_nodes_give(
-    make_clearance: MakeClearance, shape: str, grid: tuple[int, int]
-) -> None:
+def test_rings_give_what_their_nodes_give(make_clearance, shape, grid):
     rings = assemble([make_clearance(shape, grid=grid)])
     rings.surfaces["lean"] = 0.0  # patches know no second order
     nodes, random = one_by_one(rings), np.random.default_rng(len(shape) + sum(grid))

@@ -61,16 +61,6 @@ def test_a_block_sinks_as_its_bore_widens(kind: str) -> None:
     assert run["energy_expansion"].values[-1] == pytest.approx(lifted, rel=0.1)
 
 
-def test_a_constant_table_is_the_constant_temperature() -> None:
-    kept = hanging("revolute").replace({f"{WARM}trunnion": "100 degC", f"{WARM}bushing": "60 degC"})
-    tables = over_time("trunnion", "0, 0.2, 0.7 s", "100, 100, 100 degC")
-    tables |= over_time("bushing", "0, 5 s", "60, 60 degC")
-    first, second = td.simulate(kept), td.simulate(hanging("revolute").replace(tables))
-    assert set(second) - set(first) == {"radial_clearance", "energy_expansion"}
-    for name in ("displacement", "reaction_force", "clearance", "pressure_peak"):
-        np.testing.assert_allclose(second[name].values[-1], first[name].values[-1], rtol=1e-6)
-
-
 def test_the_play_between_end_faces_follows_both_lengths() -> None:
     """A shaft that is pressed along its axis stays on a face whose gap is half the play."""
     pressed = {"gravity.z": "-50 m/s^2"}

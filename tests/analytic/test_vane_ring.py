@@ -9,15 +9,12 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.cases.case import Case
 from tribodyn.core.arrays import FloatArray
-from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanism.sections.charts import joint_forces
 from tribodyn.mechanism.sections.copies import COPIES, around
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import summarise
-from tribodyn.views.section import angle_of, coordinates
 
-RADIAL: Final = "joints.trunnion.clearance.radial"
 RIGID: Final = 'elastic = "beam"\n'
 
 
@@ -46,13 +43,6 @@ def test_equal_vanes_do_not_differ(equal: xr.Dataset) -> None:
     error = np.degrees(np.abs(equal["output_error"].values)).max()
     assert found["copies_spread_max_deg"] < 1e-3 * error
     assert found["copies_sigma_deg"] < 1e-3 * error
-
-
-def test_the_pull_of_vanes_is_that_of_one_times_their_number(equal: xr.Dataset) -> None:
-    """Two vanes and four: forces of the ring's own inertia cancel from the difference."""
-    two = td.simulate(ring(2))
-    pull = [np.abs(late(found, "element_force")[:, 0]) for found in (two, equal)]
-    assert pull[1] == pytest.approx(2.0 * pull[0], rel=2e-2)
 
 
 def test_a_vane_of_twice_the_clearance_is_the_worst_copy(equal: xr.Dataset) -> None:
@@ -84,11 +74,6 @@ def test_the_pull_is_shown_against_the_limit_of_the_actuator(equal: xr.Dataset) 
     assert "drive_of_limit_max_percent" not in summarise(equal)
 
 
-def test_a_limit_is_of_what_the_drive_gives() -> None:
-    with pytest.raises(InputError, match="the limit of this drive is force_limit"):
-        ring(2, **{"drives.piston.torque_limit": "1 N m"})
-
-
 def test_vanes_stand_around_their_axis_with_the_worst_one_marked() -> None:
     loose = td.simulate(ring(4, **{"joints.trunnion[3].clearance.radial": "40 um"}))
     (one,) = around(loose)
@@ -102,11 +87,3 @@ def test_vanes_stand_around_their_axis_with_the_worst_one_marked() -> None:
     assert line.x == pytest.approx(0.0, abs=1e-9 * one.span)
     assert line.values == pytest.approx([one.middle - one.low[2], one.middle - one.high[2]])
     assert np.argmax(np.maximum(one.high, -one.low)) == 2
-
-
-def test_charts_go_over_the_position_of_the_actuator(equal: xr.Dataset) -> None:
-    label, values = angle_of(equal, "cylinder")
-    assert label == "position of cylinder [mm]"
-    time = equal["time"].values
-    assert values == pytest.approx(-20.0 * (1.0 - np.cos(time)), abs=0.1)
-    assert coordinates(equal, 1.0)[0]["label"] == label

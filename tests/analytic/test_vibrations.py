@@ -8,7 +8,6 @@ import xarray as xr
 from tests.analytic.test_outputs import BAR, CRANK, ROD, of
 
 import tribodyn as td
-from tribodyn.core.errors import TribodynError
 from tribodyn.figures.style import INK, PALE
 from tribodyn.mechanism.figures import FIGURES
 from tribodyn.mechanisms.results import summarise
@@ -231,13 +230,6 @@ def test_pins_that_slide_in_their_end_gaps_are_no_modes_and_not_unstable() -> No
     assert summarise(result)["frequency_Hz_1"] == pytest.approx(25.2257, rel=1e-3)
 
 
-def test_a_mechanism_without_a_freedom_cannot_vibrate() -> None:
-    case = td.load_case("four-bar", {"run.analysis": "vibrations"})
-    ideal = {f"joints.{name}.clearance.ideal": "true" for name in case.joints if case.joints[name].clearance}
-    with pytest.raises(TribodynError, match="nothing can vibrate"):
-        td.simulate(case.replace(ideal))
-
-
 def test_a_body_that_a_force_drives_away_has_no_position_at_rest() -> None:
     pushed = (
         drawn()
@@ -246,15 +238,6 @@ def test_a_body_that_a_force_drives_away_has_no_position_at_rest() -> None:
         .load("push", "mass", direction=[1, 0, 0], force="3 N")
     )
     assert "no position at rest was found" in td.simulate(pushed).attrs["failure"]
-
-
-def test_only_the_lowest_modes_are_kept() -> None:
-    case = td.load_case("vsv-free", {"run.analysis": "vibrations", "run.positions": "2", "run.modes": "3"})
-    result = td.simulate(case)
-    found = frequencies(result)
-    assert found.shape == (3, 3)
-    assert np.all(np.diff(found, axis=1) >= 0.0)
-    assert column(result, "mode_share").sum(axis=2) == pytest.approx(np.ones((3, 3)))
 
 
 def test_a_pendulum_in_a_bore_swings_and_its_slide_is_no_mode() -> None:

@@ -49,9 +49,7 @@ def test_bodies_and_joints_move_with_the_slider(opened: Callable[..., Any], tmp_
         assert reader.plot("orbits", "plot.plotted.now[0]") == pytest.approx(place, abs=1e-3)
 
 
-def test_clearance_is_magnified_and_arrows_are_shown_by_controls(
-    opened: Callable[..., Any], tmp_path: Path
-) -> None:
+def test_clearance_is_magnified_and_arrows_are_shown_by_controls(opened, tmp_path):
     reader = opened(write(result(), tmp_path), width=390)
     reader.look_at("mechanism")
     figure = reader.page.locator("#mechanism")
@@ -69,9 +67,7 @@ def test_clearance_is_magnified_and_arrows_are_shown_by_controls(
     assert reader.overflow() == 0
 
 
-def test_a_bore_far_wider_than_long_is_a_ring_that_hides_nothing(
-    opened: Callable[..., Any], tmp_path: Path
-) -> None:
+def test_a_bore_far_wider_than_long_is_a_ring_that_hides_nothing(opened, tmp_path):
     wide = with_entries(case_of(result()), {"joints.main.clearance.radius": "60 mm", **MAIN}, "test")
     clearance = np.array([20e-6, np.nan, 20e-6, np.nan])
     whole = result().assign(clearance=("joint", clearance)).assign_attrs(case=wide.to_toml())
@@ -104,9 +100,7 @@ def test_names_of_joints_do_not_overlap(opened: Callable[..., Any], tmp_path: Pa
             assert beside or one["bottom"] <= other["top"] or other["bottom"] <= one["top"]
 
 
-def test_the_mechanism_fits_the_picture_after_the_window_has_become_narrow(
-    opened: Callable[..., Any], tmp_path: Path
-) -> None:
+def test_the_mechanism_fits_the_picture_after_the_window_has_become_narrow(opened, tmp_path):
     reader = opened(write(result(), tmp_path))
     reader.look_at("mechanism")
     reader.page.set_viewport_size({"width": 390, "height": 800})

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import random
-import shlex
 import signal
 import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -245,21 +244,6 @@ def test_a_drag_shows_runs_with_their_own_values(at: Opened) -> None:
     assert person.control(CLEARANCE).locator(".entry").input_value() == "20 um"
 
 
-def test_a_slider_that_was_searched_for_stays_under_the_hand(at: Opened) -> None:
-    person = at()
-    person.wait_until_shown({})
-    person.page.get_by_role("button", name="All keys").click()
-    # As in Firefox, where a slider that is pressed speaks before it is active or has the focus.
-    key, say = "surfaces.bushing.hardness", "(one, name) => one.dispatchEvent(new Event(name))"
-    slider = person.slider(key).element_handle()
-    slider.evaluate("one => (one.value = 1700)")
-    slider.evaluate(say, "input")
-    person.wait_until_shown({key: "1700 MPa"})
-    slider.evaluate(say, "change")
-    assert slider.evaluate("one => one.isConnected")
-    assert person.page.evaluate("location.hash") == f"#{key}=1700MPa"
-
-
 def _drag(
     person: Person, begin: float, end: float, steps: int = 12, key: str = CLEARANCE, until: str = "true"
 ) -> None:
@@ -286,9 +270,7 @@ def _drag(
     ],
     ids=["journal", "mechanism"],
 )
-def test_every_kind_of_mechanism_has_its_workbench(
-    at: Opened, case: list[str], key: str, figure: str
-) -> None:
+def test_every_kind_of_mechanism_has_its_workbench(at, case, key, figure):
     with serving(case) as server:
         person = at(width=400, server=server)
         person.wait_until_shown({})
@@ -600,15 +582,6 @@ def test_a_picture_that_comes_late_does_not_take_away_why_a_request_was_refused(
     assert not person.page.locator("#error").is_visible()
 
 
-def test_of_an_address_with_unknown_keys_the_page_says_so(at: Opened) -> None:
-    person = at("#joint.clearance=24um&joint.colour=red")
-    person.wait_until_shown({CLEARANCE: "24 um"})
-    assert "does not have" in person.page.locator("#error").inner_text()
-    person.type_into(CLEARANCE, "25 um")
-    person.wait_until_shown({CLEARANCE: "25 um"})
-    assert not person.page.locator("#error").is_visible()
-
-
 def _over_a_line_held_up(at: Opened) -> tuple[Person, Delayed]:
     """Return a page, and what is on its way there, which does not arrive by itself."""
     delayed: Delayed = []
@@ -715,54 +688,6 @@ def _find_the_clearance_by_keyboard(person: Person) -> None:
     assert 1.0 < slope < 1.6
 
 
-def test_six_tasks_by_pointer_alone(at: Opened, tmp_path: Path) -> None:
-    person = at()
-    person.wait_until_shown({})
-    _find_the_clearance_by_pointer(person)
-    _compare_materials_by_pointer(person)
-    person.look_at("wear")
-    box = person.page.locator("#wear .plot").bounding_box()
-    person.page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.2 * box["height"])
-    assert person.page.locator("#wear .readout").inner_text()[0].isdigit()
-    take_away = person.page.locator("#take-away")
-    _reproduce(person, take_away.click)
-    _run_the_command(person, tmp_path / "again")
-    _share(person, at)
-    take_away.click()
-    _save(person, "report.html", person.page.get_by_role("link", name="report.html").click)
-
-
-def _find_the_clearance_by_pointer(person: Person) -> None:
-    """Sweep the clearance, look at runs by hovering over the curve, and take one by a click."""
-    person.control(CLEARANCE).get_by_role("button", name="Sweep").click()
-    person.wait_for("sweeps.get('joint.clearance')?.finished")
-    curve = person.control(CLEARANCE).locator("canvas")
-    place = "(k => placedPoints(document.querySelector('.curve'), pageState.controls.get('joint.clearance'),"
-    place += " sweeps.get('joint.clearance'))[k])"
-    last, good = person.page.evaluate(f"[{place}(14), {place}(4)]")
-    box = curve.bounding_box()
-    person.page.mouse.move(box["x"] + last["x"], box["y"] + last["y"])
-    person.wait_for(f"pageState.shown.run === '{last['run']}'")
-    assert person.page.evaluate("pageState.values") == {}
-    person.page.mouse.move(box["x"] + good["x"], box["y"] + good["y"])
-    person.page.mouse.down()
-    person.page.mouse.up()
-    person.wait_until_shown({CLEARANCE: good["text"]})
-    assert person.shown()["results"]["vane_angle_error_outside_deg"] < 0.03
-
-
-def _compare_materials_by_pointer(person: Person) -> None:
-    person.page.locator("#pin").click()
-    person.page.get_by_role("button", name="All keys").click()
-    slider = person.slider("surfaces.bushing.hardness")
-    slider.scroll_into_view_if_needed()
-    box = slider.bounding_box()
-    person.page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.5 * box["height"])
-    person.wait_for("!requests.awaited && pageState.shown.values['surfaces.bushing.hardness']")
-    difference = person.page.locator("[data-row=wear_depth_rate_nm_per_1000_cycles] td").nth(1).inner_text()
-    assert difference.endswith("%")
-
-
 def _compare_materials_by_keyboard(person: Person) -> None:
     person.press("p", "/")
     person.page.keyboard.type("bushing hardness")
@@ -801,19 +726,6 @@ def _reproduce(person: Person, open_dialog: Callable[[], None]) -> None:
     exec(text, names)
     _same_numbers(person, summarise(names["result"]))
     person.press("Escape")
-
-
-def _run_the_command(person: Person, folder: Path) -> None:
-    """Run the copied command as a shell would: the same numbers to the bit."""
-    person.press("c")
-    command = shlex.split(person.page.locator("#away code").first.inner_text())
-    person.press("Escape")
-    assert command[:2] == ["tribodyn", "run"]
-    subprocess.run(
-        [*TRIBODYN, *command[1:], "--no-figures", "--no-report", "--quiet", "--output", str(folder)],
-        check=True,
-    )
-    _same_numbers(person, json.loads((folder / "summary.json").read_text(encoding="utf-8")))
 
 
 def _same_numbers(person: Person, again: Mapping[str, Any]) -> None:
@@ -915,14 +827,3 @@ def test_a_template_is_started_from(at: Opened, linkage: Workbench) -> None:
     _edit(person, "start")
     assert "Pendulum" in person.page.locator("h1").inner_text()
     assert person.page.evaluate("Object.keys(pageState.shown.sections)")
-
-
-def test_a_template_of_another_kind_leaves_nothing_of_the_figures_before(at: Opened) -> None:
-    """Check that the scene of the template does not get the data of the vane, which has another scene."""
-    person = at()
-    person.wait_until_shown({})
-    person.look_at("mechanism")
-    person.press("m")
-    person.page.locator("#template").select_option("pendulum")
-    _edit(person, "start")
-    assert "Pendulum" in person.page.locator("h1").inner_text()

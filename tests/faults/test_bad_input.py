@@ -144,9 +144,7 @@ VALUES = [
 
 
 @pytest.mark.parametrize(("content", "key", "hint"), VALUES, ids=[content for content, _, _ in VALUES])
-def test_wrong_values_name_file_key_value_and_what_is_allowed(
-    content: str, key: str, hint: str, refused: RunCommand, tmp_path: Path
-) -> None:
+def test_wrong_values_name_file_key_value_and_what_is_allowed(content, key, hint, refused, tmp_path):
     (tmp_path / "mine.toml").write_text(f'case = "vsv"\n{content}\n', encoding="utf-8")
     message = refused("check", "mine.toml")
     assert f"mine.toml: {key}" in message
@@ -199,9 +197,7 @@ def test_files_that_are_not_there(name: str, hint: str, refused: RunCommand, tmp
     assert hint in refused("run", name)
 
 
-def test_permissions_are_respected(
-    refused: RunCommand, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_permissions_are_respected(refused, tmp_path, monkeypatch):
     # Played, because root, who runs many test suites, may read and write everything.
     def deny(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
@@ -218,9 +214,7 @@ def test_permissions_are_respected(
 @pytest.mark.parametrize(
     "output", ["file", "file/inside", "full", "figured", "new/\0", "", "n" * 300, "deep/" + "n" * 300]
 )
-def test_output_that_cannot_be_written_is_found_before_the_run(
-    output: str, refused: RunCommand, tmp_path: Path
-) -> None:
+def test_output_that_cannot_be_written_is_found_before_the_run(output, refused, tmp_path):
     (tmp_path / "file").write_text("mine", encoding="utf-8")
     (tmp_path / "full" / "result.nc").mkdir(parents=True)
     (tmp_path / "figured").mkdir()
@@ -253,9 +247,7 @@ def test_wrong_options_name_the_option(arguments: tuple[str, ...], hint: str, re
 @pytest.mark.parametrize(
     "arguments", [["run"], ["run", "vsv", "--outptu", "x"], ["run", "vsv", "--out", "x"]]
 )
-def test_a_wrong_command_line_is_one_message(
-    arguments: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_wrong_command_line_is_one_message(arguments, capsys):
     assert main(arguments) == 2
     message = capsys.readouterr().err
     assert re.fullmatch(r"tribodyn: .*--help`\n", message)
@@ -289,9 +281,7 @@ def test_the_command_alone_prints_its_help(capsys: pytest.CaptureFixture[str]) -
     assert "usage: tribodyn" in capsys.readouterr().out
 
 
-def test_a_refusal_is_json_where_json_is_asked_for(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_refusal_is_json_where_json_is_asked_for(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("mine.toml").write_text('case = "vsv"\n[joint]\nclearance = 20\nradios = 6\n', encoding="utf-8")
     assert main(["check", "mine.toml", "--json"]) == 2

@@ -208,9 +208,7 @@ def test_huge_scans(refused: Callable[..., str], tmp_path: Path, monkeypatch: py
         (["--hardness", "0 GPa", "--modulus", "7 GPa"], "--hardness"),
     ],
 )
-def test_options_that_cannot_be(
-    options: list[str], said: str, refused: Callable[..., str], tmp_path: Path
-) -> None:
+def test_options_that_cannot_be(options, said, refused, tmp_path):
     (tmp_path / "scan.csv").write_bytes(text(rows()))
     assert said in refused("scan.csv", *options)
 

@@ -1,6 +1,5 @@
 """Folders that may not be written to, by any command that would: refused in a sentence, left as they are."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -39,9 +38,7 @@ def refused(command: tuple[str, ...], folder: str, capsys: pytest.CaptureFixture
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
-def test_of_two_into_one_folder_one_is_refused(
-    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_of_two_into_one_folder_one_is_refused(command, tmp_path, capsys):
     folder = tmp_path / "out"
     with OutputDirectory(str(folder)).reserved():
         assert "another tribodyn is writing results there" in refused(command, "out", capsys)
@@ -50,9 +47,7 @@ def test_of_two_into_one_folder_one_is_refused(
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
-def test_a_read_only_folder_is_refused(
-    command: tuple[str, ...], mounted: Callable[[str], Path], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_read_only_folder_is_refused(command, mounted, capsys):
     folder = mounted("ro")
     for path in (folder, folder / "new"):
         assert "read-only" in refused(command, str(path), capsys)

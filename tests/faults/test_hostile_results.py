@@ -103,9 +103,7 @@ def assert_harmless(path: Path, innocent: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["vsv", "mechanism", "sweep"])
-def test_no_text_of_a_result_becomes_part_of_its_page(
-    kind: str, each: dict[str, xr.Dataset], tmp_path: Path
-) -> None:
+def test_no_text_of_a_result_becomes_part_of_its_page(kind, each, tmp_path):
     (tmp_path / "good").mkdir()
     (tmp_path / "bad").mkdir()
     innocent = write(each[kind], tmp_path / "good", figures=())
@@ -119,18 +117,14 @@ def test_no_text_of_a_result_becomes_part_of_its_page(
         *(("vsv", name) for name in ("snapshot_theta_v", "theta_v", "pressure_cycle")),
     ],
 )
-def test_a_result_that_lacks_a_variable_is_refused_by_its_name_or_does_without(
-    kind: str, name: str, each: dict[str, xr.Dataset], tmp_path: Path
-) -> None:
+def test_a_result_that_lacks_a_variable_is_refused_by_its_name_or_does_without(kind, name, each, tmp_path):
     try:
         write(each[kind].drop_vars(name), tmp_path, figures=())
     except InputError as error:
         assert f"lacks the variable {name}; it is damaged" in str(error)  # noqa: PT017
 
 
-def test_no_text_of_two_results_becomes_part_of_their_comparison(
-    each: dict[str, xr.Dataset], tmp_path: Path
-) -> None:
+def test_no_text_of_two_results_becomes_part_of_their_comparison(each, tmp_path):
     good = [ComparedRun("one", each["vsv"]), ComparedRun("two", each["vsv"])]
     bad = [ComparedRun("one", spoiled(each["vsv"])), ComparedRun(MARKUP, each["vsv"])]
     innocent = write_comparison(good, tmp_path / "good.html")

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -40,9 +39,7 @@ def test_a_file_of_an_earlier_version_learns_the_new_keys() -> None:
 
 
 @pytest.mark.parametrize(("case", "key", "value", "said"), REFUSED)
-def test_bad_keys_are_refused_by_name(
-    case: str, key: str, value: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_bad_keys_are_refused_by_name(case, key, value, said, tmp_path, capsys):
     target = tmp_path / "out"
     assert main(["run", case, "--set", f"{key}={value}", "-o", str(target)]) == 2
     message = capsys.readouterr().err
@@ -52,9 +49,7 @@ def test_bad_keys_are_refused_by_name(
     assert not target.exists()
 
 
-def test_a_load_that_the_contact_cannot_carry_stops_the_run_and_is_explained(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_load_that_the_contact_cannot_carry_stops_the_run_and_is_explained(tmp_path, capsys):
     target = tmp_path / "out"
     changes = ["--set", "loads.x.force=200 kN", "--set", "joints.bearing.clearance.bulk=none"]
     assert main(["run", "journal-dry", *changes, "--no-figures", "-o", str(target)]) == 1

@@ -158,9 +158,7 @@ def test_a_campaign_without_room_on_the_disk_ends_in_words(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("content", [b"", b"\x93NUMPY\x01\x00", b"PK\x03\x04 torn", b"\x80\x04K\x01."])
-def test_a_damaged_checkpoint_is_refused_and_kept(
-    content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_damaged_checkpoint_is_refused_and_kept(content, tmp_path, capsys):
     (tmp_path / "checkpoint.npz").write_bytes(content)
     options = [f"--set={name}={value}" for name, value in CHANGES.items()]
     assert main(["run", "vsv", "--quiet", *options, "-o", str(tmp_path)]) == 2

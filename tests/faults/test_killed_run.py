@@ -1,7 +1,6 @@
 """Real runs that are killed, have no room left, meet each other, or whose results are damaged afterwards."""
 
 import json
-import os
 import random
 import resource
 import shutil
@@ -17,7 +16,6 @@ from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import read, summarise
-from tribodyn.results.atomic import remove_stale_parts
 
 RUN = [sys.executable, "-m", "tribodyn", "run", "vsv", "--force", "--set", "run.duration=1 s", "-o"]
 WHOLE = ["case.toml", "figures", "report.html", "result.nc", "summary.json"]
@@ -144,15 +142,6 @@ def test_runs_killed_at_fifty_moments(made: tuple[Path, list[tuple[int, str]]], 
     assert_one_run(folder)
 
 
-def test_what_a_killed_process_left_is_removed_in_time(tmp_path: Path) -> None:
-    old, new = tmp_path / ".result.nc.1.part", tmp_path / ".result.nc.2.part"
-    old.touch()
-    new.touch()
-    os.utime(old, (time.time() - 7200.0,) * 2)
-    remove_stale_parts(tmp_path)
-    assert (old.exists(), new.exists()) == (False, True)
-
-
 def test_who_has_a_folder_alone_removes_what_killed_processes_left_at_once(tmp_path: Path) -> None:
     parts = [tmp_path / place / ".result.nc.1.part" for place in ("", "figures", "points")]
     for part in parts:
@@ -207,9 +196,7 @@ def test_a_damaged_result_is_not_drawn(copy: Path, capfd: pytest.CaptureFixture[
     assert not (copy / "report.html").exists()
 
 
-def test_a_summary_that_is_not_of_the_result_is_written_again(
-    copy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_summary_that_is_not_of_the_result_is_written_again(copy, monkeypatch, capsys):
     monkeypatch.setattr("tribodyn.cli.commands.report.draw", lambda *_, **__: None)
     summary, case = copy / "summary.json", copy / "case.toml"
     other = json.dumps(json.loads(summary.read_text(encoding="utf-8")) | {"contact_force_max_N": 1.0})

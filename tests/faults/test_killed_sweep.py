@@ -110,9 +110,7 @@ def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: P
     ("limit", "status", "told"),
     [(20, 2, r"--workers: the limit of open files"), (29, 0, r"\(`ulimit -n`\) allows [12] of 3 workers")],
 )
-def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(
-    limit: int, status: int, told: str, tmp_path: Path
-) -> None:
+def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(limit, status, told, tmp_path):
     command = [
         *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--workers", "3", "--summary-only"),
         *("--vary", "joint.clearance=20,24,28 um", "--set", "run.duration=20 ms"),
@@ -177,9 +175,7 @@ def goes_on(folder: Path, alone: xr.Dataset, after: float) -> bool:
 # In parts, each a test: a campaign of minutes shows how far it is, and can be taken up by -k.
 @pytest.mark.long
 @pytest.mark.parametrize("part", range(5))
-def test_a_sweep_killed_at_fifty_moments(
-    part: int, undisturbed: tuple[xr.Dataset, float], tmp_path: Path
-) -> None:
+def test_a_sweep_killed_at_fifty_moments(part, undisturbed, tmp_path):
     # At any moment of its life: while its workers start, compute, points are kept, merged, drawn.
     alone, lasts = undisturbed
     chance, deadline = random.Random(part), time.monotonic() + LONGEST

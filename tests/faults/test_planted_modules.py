@@ -142,9 +142,7 @@ TRIED = [
     ("status", "arguments"),
     [pytest.param(*tried, id=f"{tried[1][0]}-{tried[0]}") for tried in TRIED if tried[1][0] in HELPED],
 )
-def test_no_command_imports_from_the_working_directory(
-    status: int, arguments: tuple[str, ...], planted: Path, script: list[str]
-) -> None:
+def test_no_command_imports_from_the_working_directory(status, arguments, planted, script):
     assert imported([*script, *arguments], planted) == (status, set())
 
 

@@ -1,4 +1,6 @@
-"""Mechanisms that cannot be: one change to a slider-crank each, and the message that its designer reads."""
+"""Mechanisms that are refused, and those that every analysis answers."""
+
+from __future__ import annotations
 
 import re
 import time
@@ -13,6 +15,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.system import MechanismSystem
+from tribodyn.mechanisms.catalogue import load_case, template, templates
 
 REFUSED = tomllib.loads(Path(__file__).with_name("refused_mechanisms.toml").read_text(encoding="utf-8"))
 REAL = [name for name, kind in JOINTS.items() if kind.SHAPE]
@@ -64,3 +67,32 @@ def test_a_spatial_crank_that_cannot_turn_is_refused_although_its_coupler_spins_
 def test_a_run_refuses_what_check_refuses() -> None:
     with pytest.raises(InputError, match="does not close"):
         td.simulate(rssr(70.0, True).case())
+
+
+POSITIONS = "5"
+#: What is said of those that have none.
+NO_ANSWER = {
+    ("latch", "kinematic"): "no drive prescribes a motion",
+    ("pendulum", "kinematic"): "no drive prescribes a motion",
+    ("slider-crank-3d", "kinematic"): "no drive prescribes a motion",
+    ("slider-crank-oil", "static"): "carries by motion alone",
+    ("slider-crank-oil", "vibrations"): "carries by motion alone",
+}
+#: All but models with an analysis of their own, and one of wear, which follows cycles.
+DRAWN = sorted({*templates()} - {"vsv", "vsv-engine", "journal-dry", "journal-oil", "four-bar-wear"})
+
+
+@pytest.mark.parametrize("analysis", ["static", "kinematic", "vibrations"])
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_built_in_mechanism_has_an_answer_in_every_analysis(name, analysis, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(template(name), encoding="utf-8")
+    case = load_case(path)
+    words = NO_ANSWER.get((name, analysis), "")
+    changes = {"run.analysis": analysis} | ({} if analysis == "kinematic" else {"run.positions": POSITIONS})
+    try:
+        failure = str(td.simulate(case.replace(changes)).attrs["failure"])
+    except InputError as error:
+        failure = str(error)
+    assert words in failure
+    assert words or not failure

@@ -1,7 +1,6 @@
 """Random mechanisms with several frictions that hold at rest: they end, they do not creep, or say why not."""
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -107,9 +106,7 @@ FEW = [(blocks, [0, 1, 59]), (chain, [5, 34, 43, 44, 55]), (screw, [3, 86]), (un
 @pytest.mark.parametrize(
     ("form", "seeds"), [*FEW, *(pytest.param(form, range(60), marks=pytest.mark.long) for form in FORMS)]
 )
-def test_frictions_end_in_a_state_or_a_sentence(
-    form: Callable[[Chance], td.Mechanism], seeds: list[int]
-) -> None:
+def test_frictions_end_in_a_state_or_a_sentence(form, seeds):
     for seed in seeds:
         case = form(np.random.default_rng([seed])).case()
         run = td.simulate(case)

@@ -127,9 +127,7 @@ def mark(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("name", ["scan.npy", "scan.nc", "scan.csv", "scan.mat", "scan.h5", "scan"])
-def test_a_pickled_scan_is_refused(
-    name: str, mark: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_pickled_scan_is_refused(name, mark, tmp_path, capsys):
     file = tmp_path / name
     if name.endswith(".npy"):
         np.save(file, np.array([Trap(mark)], dtype=object), allow_pickle=True)
@@ -155,9 +153,7 @@ def test_a_pickled_result_is_refused(mark: Path, tmp_path: Path, capsys: pytest.
 @pytest.mark.parametrize(
     "name", ["../case.toml", "/dev/zero", "..", "~/.ssh/id_rsa", "a\x00b", "file:///etc/passwd"]
 )
-def test_a_file_key_reads_regular_files_of_numbers_and_writes_nothing(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_key_reads_regular_files_of_numbers_and_writes_nothing(name, tmp_path, capsys):
     inner = tmp_path / "inner"
     inner.mkdir()
     text = f'case = "vsv"\n[asperities]\nsurface = {json.dumps(name)}\n'

@@ -268,9 +268,7 @@ def test_a_run_of_hours_ends_at_once_and_whole(tmp_path: Path) -> None:
 # In parts, each a test: a campaign of minutes shows how far it is.
 @pytest.mark.long
 @pytest.mark.parametrize("part", range(PARTS))
-def test_signals_at_random_moments_of_all_commands(
-    part: int, inputs: Callable[[Path], None], lasts: Callable[[str], float], tmp_path: Path
-) -> None:
+def test_signals_at_random_moments_of_all_commands(part, inputs, lasts, tmp_path):
     chance, names = random.Random(part), list(COMMANDS)
     for turn in range(SIGNALS):
         name = names[(part * SIGNALS + turn) % len(names)]

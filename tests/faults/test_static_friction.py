@@ -109,9 +109,7 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
         pytest.param((1, 2, 3, 7, 8, 9, 20, 24), id="more", marks=pytest.mark.long),
     ],
 )
-def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(
-    seeds: tuple[int, ...],
-) -> None:
+def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seeds):
     """Also while shafts walk from one end of their bores to the other."""
     for seed in seeds:
         ended, differences = loop(seed)

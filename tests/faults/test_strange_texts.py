@@ -79,9 +79,7 @@ SOUND = 'case = "vsv"\ntitle = """a = 5 mm"""\n[joint]\nclearance = "20 um"\nrad
         ("]", 6, "line 6"),
     ],
 )
-def test_what_is_no_toml_is_said_of_the_line_where_it_is(
-    wrong: str, line: int, hint: str, tmp_path: Path
-) -> None:
+def test_what_is_no_toml_is_said_of_the_line_where_it_is(wrong, line, hint, tmp_path):
     """Lines that could be mistaken, before and behind, are sound; only the wrong one is named."""
     more = '[run]\noutput_interval = "1 ms" # 1 ms\nnote = """\nlength = 5 mm\nname = word\n"""\n'
     path = tmp_path / "case.toml"
@@ -123,9 +121,7 @@ def test_controls_are_shown_as_codes_and_grey_stays_grey() -> None:
     assert without_controls(f"{GREY}a\tb\n{PLAIN}") == f"{GREY}a\tb\n{PLAIN}"
 
 
-def test_no_text_of_a_rig_reaches_terminal_or_page_as_it_is(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_text_of_a_rig_reaches_terminal_or_page_as_it_is(tmp_path, capsys):
     table = tmp_path / "numbers.csv"
     row = f'steps,5,1,10 %,,"<script>alert(1)</script>{ESCAPE}","<img src=x>"'
     table.write_text(f"quantity,measured,half_width,accepted,null,source,explanation\n{row}\n")

@@ -105,9 +105,7 @@ def test_a_stranger_is_refused_wherever_a_sweep_listens(family: list[psutil.Proc
     assert opened.split() == []
 
 
-def test_what_a_sweep_puts_among_shared_temporary_files_is_closed_to_others(
-    family: list[psutil.Process], shared: Path
-) -> None:
+def test_what_a_sweep_puts_among_shared_temporary_files_is_closed_to_others(family, shared):
     put = {path: path.lstat() for path in shared.iterdir()}
     assert {oct(stat.S_IMODE(status.st_mode)) for status in put.values()} <= {"0o700", "0o600"}
     assert {status.st_uid for status in put.values()} <= {os.getuid()}

@@ -191,9 +191,7 @@ def try_mutants(
     ("part", "count"),
     [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long) for part in range(PARTS))],
 )
-def test_wrong_results_are_refused_or_harmless(
-    part: int, count: int, originals: dict[str, xr.Dataset], tmp_path: Path
-) -> None:
+def test_wrong_results_are_refused_or_harmless(part, count, originals, tmp_path):
     every = [(kind, name, make) for kind, whole in originals.items() for name, make in mutants(whole)]
     shuffled = random.Random(0).sample(every, len(every))
     chosen, chance = shuffled[part * EACH :][:count], random.Random(part)

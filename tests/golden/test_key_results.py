@@ -112,9 +112,7 @@ def test_key_results_are_those_stored(runs: tuple[str, list[xr.Dataset]]) -> Non
         assert found[key] == pytest.approx(value, rel=allowed), key
 
 
-def test_data_and_rows_are_those_stored_to_the_bit(
-    runs: tuple[str, list[xr.Dataset]], pytestconfig: pytest.Config
-) -> None:
+def test_data_and_rows_are_those_stored_to_the_bit(runs, pytestconfig):
     stored = json.loads(HASHES.read_text(encoding="utf-8"))
     if (here := bits_of()) != stored["of"]:
         pytest.skip(f"bits are stored for {stored['of']}, not for {here}")

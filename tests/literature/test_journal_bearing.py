@@ -149,9 +149,7 @@ def test_without_a_groove_a_light_film_stands_elsewhere() -> None:
     ("width", "turned", "flows"),
     [(1.0, 4.4, (0.07, 0.14)), (0.5, 1.3, (0.02, 0.03)), (0.25, 0.3, (0.005, 0.005))],
 )
-def test_the_default_boundary_differs_from_the_tables_as_the_manual_says(
-    width: float, turned: float, flows: tuple[float, float]
-) -> None:
+def test_the_default_boundary_differs_from_the_tables_as_the_manual_says(width, turned, flows):
     column = WIDTHS.index(width)
     turns, flow, loads = [], [], []
     for eps, row in ROTATION.items():

@@ -1,4 +1,4 @@
-"""Kogut-Etsion pressures against numbers computed independently of this project."""
+"""Kogut and Etsion and the law of the paper against published tables."""
 
 import dataclasses
 import math
@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.contact import KogutEtsion, SurfacePair
+from tribodyn.contact import RSDC, KogutEtsion, SurfacePair
 
 # Surfaces of Table 1 of the source paper, computed independently.
 TABLE_1_PROPERTIES = [
@@ -48,17 +48,13 @@ REAL_AREA = {
 
 
 @pytest.mark.parametrize(("name", "expected", "last_digit"), TABLE_1_PROPERTIES)
-def test_properties_of_table_1(
-    table_1_pair: SurfacePair, name: str, expected: float, last_digit: float
-) -> None:
+def test_properties_of_table_1(table_1_pair, name, expected, last_digit):
     # Half a unit of the last printed digit.
     assert getattr(table_1_pair, name) == pytest.approx(expected, abs=last_digit)
 
 
 @pytest.mark.parametrize(("h_star", "expected", "last_digit"), TABLE_1_PRESSURE)
-def test_pressure_of_table_1(
-    table_1_pair: SurfacePair, h_star: float, expected: float, last_digit: float
-) -> None:
+def test_pressure_of_table_1(table_1_pair, h_star, expected, last_digit):
     # Half a unit of the last printed digit.
     pressure = KogutEtsion(table_1_pair).stiffness_pressure(np.array([h_star]))[0]
     assert pressure == pytest.approx(expected, abs=last_digit)
@@ -99,3 +95,21 @@ def pair_of(plasticity_index: float, density: float, radius: float, roughness: f
     modulus = math.pi * (0.454 + 0.41 * nu) * hardness / (2.0 * slope)
     young = 2.0 * (1.0 - nu**2) * modulus
     return SurfacePair((young, young), (nu, nu), (0.0, roughness), hardness, density, radius)
+
+
+# Surfaces of Table 1 of the source paper, computed independently: h*, μ, e, C [Pa],
+# and half a unit of the last printed digit of C.
+TABLE_1 = [
+    (0.0, 1.1465, 0.6825, 407.3e6, 0.05e6),
+    (2.0, 1.0122, 0.7050, 5.930e6, 0.0005e6),
+    (3.0, 1.0025, 0.7067, 0.2343e6, 0.00005e6),
+]
+
+
+@pytest.mark.parametrize(("h_star", "mu", "restitution", "damping", "last_digit"), TABLE_1)
+def test_damping_of_table_1(table_1_pair, h_star, mu, restitution, damping, last_digit):
+    law, h = RSDC(table_1_pair), np.array([h_star])
+    # Half a unit of the last printed digit.
+    assert law.loss_factor(h)[0] == pytest.approx(mu, abs=0.5001e-4)
+    assert law.meant_restitution(h)[0] == pytest.approx(restitution, abs=0.5001e-4)
+    assert law.damping_pressure(h)[0] == pytest.approx(damping, abs=last_digit)

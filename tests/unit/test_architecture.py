@@ -1,4 +1,4 @@
-"""Architecture of the source: layers, size of files, style and types.
+"""Architecture of the source: layers, size of files and style; `make lint` and `make check` see to types.
 
 Each check is one test and runs the tool a developer runs, so that ``make test`` and ``make lint`` agree.
 Leave them out with ``pytest -m "not architecture"``.
@@ -24,7 +24,6 @@ TOOLS = {
     "layers": ("lint-imports",),
     "lint": ("ruff", "check", "--no-cache", "."),
     "format": ("ruff", "format", "--check", "."),
-    "types": ("mypy",),
 }
 
 

@@ -53,9 +53,7 @@ def result() -> xr.Dataset:
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_examples_in_docstrings_run(
-    module: str, result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_examples_in_docstrings_run(module, result, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = doctest.testmod(importlib.import_module(module), extraglobs={"result": result})
     assert found.failed == 0 < found.attempted

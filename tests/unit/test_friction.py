@@ -22,9 +22,7 @@ def test_stribeck_friction_falls_from_static_to_coulomb() -> None:
 @pytest.mark.parametrize(
     ("motor", "external", "expected"), [(3.0, 1.0, 0.4), (-3.0, 1.0, 0.8), (0.0, 2.0, 0.4)]
 )
-def test_equal_coefficients_give_friction_of_the_difference(
-    motor: float, external: float, expected: float
-) -> None:
+def test_equal_coefficients_give_friction_of_the_difference(motor, external, expected):
     law = FrictionLimit(motor_load=0.2, external_load=0.2)
     assert float(law(np.array(1.0), motor, external)) == pytest.approx(expected)
 
@@ -33,8 +31,6 @@ def test_equal_coefficients_give_friction_of_the_difference(
     ("motor", "external", "expected"),
     [(3.0, -1.0, 10.0), (1.0, -3.0, 1.0), (3.0, 1.0, 0.0), (2.0, -2.0, 0.0)],
 )
-def test_quadratic_friction_acts_against_the_direction_of_power(
-    motor: float, external: float, expected: float
-) -> None:
+def test_quadratic_friction_acts_against_the_direction_of_power(motor, external, expected):
     law = FrictionLimit(motor_load_quadratic=1.0, external_load_quadratic=10.0)
     assert float(law(np.array(0.0), motor, external)) == pytest.approx(expected)

@@ -1,10 +1,14 @@
-"""The peers solve the same problem as the kernels do, or their times would mean nothing."""
+"""Benchmarks run, and peers solve the same equations."""
 
 from __future__ import annotations
+
+import importlib
+import json
 
 import numpy as np
 import pytest
 
+from benchmarks.__main__ import BY_HAND, NAMES
 from benchmarks.numpy_vsv import NumpyVsv
 from benchmarks.vsv_case import NATIVE, one, problem_of, vsv_case
 
@@ -26,6 +30,7 @@ def test_the_right_hand_side_in_numpy_is_that_of_the_kernels(t: float, speed: fl
     np.testing.assert_allclose(model.rhs(t, y), compiled, rtol=1e-9, atol=1e-9 * abs(compiled).max())
 
 
+@pytest.mark.long  # compiles what the library lacks
 def test_cvode_takes_the_same_steps_from_compiled_code_as_from_python() -> None:
     pytest.importorskip("sksundae")
     native, stepped = (one(solver, 1e-4, cycles=0.03) for solver in (NATIVE, "cvode"))
@@ -43,3 +48,27 @@ def test_the_model_in_exudyn_is_the_same_mechanism() -> None:
     surface = errors(with_exudyn("surface", 5e-4, cycles), one("mebdf", 1e-4, cycles=cycles))
     # Ours is linear in the tilt of 1e-3: angles differ by l_4/l_4 tilt²/2, 3e-5°; the clearance makes 3e-2°.
     assert surface["angle"] < 2e-4
+
+
+#: These take many seconds even so; some compile kernels that the library lacks.
+LASTING = (
+    "joint_kernel",
+    "kinks",
+    "long_run",
+    "random_machines",
+    "ring",
+    "static_machines",
+    "sweep",
+    "vsv",
+    "workbench",
+)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.long) if name in LASTING else name for name in (*NAMES, *BY_HAND)],
+)
+def test_a_benchmark_runs(name: str) -> None:
+    found = importlib.import_module(f"benchmarks.{name}").run(quick=True)
+    assert found
+    json.dumps(found)

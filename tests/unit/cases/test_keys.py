@@ -1,11 +1,17 @@
+"""Keys of cases: documented, read back, of another kind; those of contact."""
+
 import tomllib
 from itertools import chain
+from typing import Any
 
 import pytest
 
+import tribodyn as td
 from tribodyn.cases import Key, keys_of
 from tribodyn.cases.keys import ValueProblem
-from tribodyn.mechanisms.catalogue import built_in
+from tribodyn.contact import LAWS
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import built_in, parse_case
 
 #: Keys of each built-in case; together some five thousand.
 KEYS = {name: list(keys_of(entry.model).values()) for name, entry in built_in().items()}
@@ -45,9 +51,7 @@ def test_every_default_reads_back_from_what_is_written(case: str) -> None:
         ("joint.friction", "moment", "moment"),
     ],
 )
-def test_numbers_and_switches_may_be_typed_as_text_outside_files(
-    path: str, given: str, value: object
-) -> None:
+def test_numbers_and_switches_may_be_typed_as_text_outside_files(path, given, value):
     key = keys_of(built_in()["vsv"].model)[path]
     assert key.read(given, text=True) == value
     if not isinstance(value, str):
@@ -76,9 +80,7 @@ def test_values_of_another_kind_are_refused(path: str, wrong: object) -> None:
         ("mechanism.gravity", 9.81, "9.81 m/s^2"),
     ],
 )
-def test_a_number_without_a_unit_is_shown_with_the_one_that_was_meant(
-    path: str, number: object, spelled: str
-) -> None:
+def test_a_number_without_a_unit_is_shown_with_the_one_that_was_meant(path, number, spelled):
     key = keys_of(built_in()["vsv"].model)[path]
     with pytest.raises(ValueProblem, match="unit is missing") as problem:
         key.read(number, text=True)
@@ -91,3 +93,59 @@ def test_every_quantity_asks_for_its_unit(number: object) -> None:
         if key.kind == "quantity":
             with pytest.raises(ValueProblem, match="unit is missing"):
                 key.read(number, text=True)
+
+
+def changed(**changes: object) -> Any:
+    return td.load_case("vsv").replace({f"contact.{key}": value for key, value in changes.items()})
+
+
+def test_only_laws_with_a_restitution_are_damped_by_default() -> None:
+    factors = {name: changed(law=name).contact.damping_factor for name in LAWS}
+    damped = {name for name, factor in factors.items() if factor != "none"}
+    assert damped == {"rsdc"}
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_restitution_damps_any_law(name: str) -> None:
+    case = changed(law=name, restitution=0.6)
+    law = case.contact.law_of(case.surface_pair)
+    assert (law.name, law.damping_factor, law.restitution) == (name, "lankarani-nikravesh", 0.6)
+
+
+def test_a_factor_without_restitution_is_refused() -> None:
+    with pytest.raises(InputError, match="the law ceb has no restitution of its own") as caught:
+        changed(law="ceb", damping_factor="flores")
+    assert caught.value.key == "contact.restitution"
+
+
+def test_what_the_surfaces_cannot_have_is_found_before_a_run() -> None:
+    with pytest.raises(InputError) as caught:
+        changed(law="gw", damping_factor="calibrated", restitution=0.7, design_pressure="1 TPa")
+    assert caught.value.key == "contact.design_pressure"
+    smooth = {"asperities.density": "0.0001 1/um^2", "contact.separation_from": "surface"}
+    with pytest.raises(InputError) as caught:
+        td.load_case("vsv").replace(smooth)
+    assert caught.value.key == "contact.separation_from"
+
+
+@pytest.mark.parametrize(
+    ("law", "key", "value", "has_effect"),
+    [
+        ("rsdc", "penalty_stiffness", "7 MPa/um", False),
+        ("linear", "penalty_stiffness", "7 MPa/um", True),
+        ("linear", "separation_from", "surface", False),
+        ("gw", "separation_from", "surface", True),
+    ],
+)
+def test_a_parameter_of_another_law_is_noted(law: str, key: str, value: str, has_effect: bool) -> None:
+    notes = changed(**{"law": law, key: value}).remarks().notes
+    found = [note for note in notes if f"contact.{key} has no effect with the law {law}" in note]
+    assert bool(found) is not has_effect
+
+
+def test_a_parameter_of_another_law_is_noted_for_a_named_pair_too() -> None:
+    text = 'case = "slider-crank"\n[pairs.pins]\ncontact.penalty_stiffness = "7 MPa/um"\n'
+    notes = parse_case(text, "test").remarks().notes
+    assert any(
+        "pairs.pins.contact.penalty_stiffness has no effect with the law rsdc" in note for note in notes
+    )

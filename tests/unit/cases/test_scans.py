@@ -128,9 +128,7 @@ def test_every_kind_of_case_takes_a_scan(name: str, folder: Path) -> None:
         ('surface = "scan.csv"\nshort_cutoff = 5', "asperities.short_cutoff", "the unit is missing"),
     ],
 )
-def test_what_cannot_be_is_refused(
-    lines: str, key: str, said: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_cannot_be_is_refused(lines, key, said, folder, monkeypatch):
     monkeypatch.chdir(folder)  # long paths are shortened in messages
     pytest.importorskip("SurfaceTopography")
     (folder / "bare.csv").write_text("1,2\n3,4\n")

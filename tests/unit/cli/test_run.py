@@ -58,9 +58,7 @@ def simulation(monkeypatch: pytest.MonkeyPatch, make_result: ResultFactory) -> C
     return install
 
 
-def test_a_run_leaves_everything_and_says_where(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_run_leaves_everything_and_says_where(in_empty_directory, simulation, capsys):
     simulation()
     assert main(["run", "vsv", "--set", "joint.clearance=30 um", "--solver", "radau"]) == 0
     directory = in_empty_directory / "results-vsv"
@@ -73,9 +71,7 @@ def test_a_run_leaves_everything_and_says_where(
     assert os.path.join("results-vsv", "report.html") in captured.out
 
 
-def test_json_is_all_there_is_on_stdout(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_json_is_all_there_is_on_stdout(in_empty_directory, simulation, capsys):
     simulation()
     assert main(["run", "vsv", "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
@@ -83,9 +79,7 @@ def test_json_is_all_there_is_on_stdout(
     assert printed == stored
 
 
-def test_quiet_prints_warnings_only(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_quiet_prints_warnings_only(in_empty_directory, simulation, capsys):
     simulation()
     assert main(["run", "vsv", "--quiet"]) == 0
     captured = capsys.readouterr()
@@ -94,9 +88,7 @@ def test_quiet_prints_warnings_only(
     assert "warning: the friction coefficient" in captured.err
 
 
-def test_a_run_that_stops_midway_is_saved_and_explained(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_run_that_stops_midway_is_saved_and_explained(in_empty_directory, simulation, capsys):
     simulation(lambda stop: "the step size became too small")
     assert main(["run", "vsv"]) == 1
     last = capsys.readouterr().err.splitlines()[-1]
@@ -107,12 +99,7 @@ def test_a_run_that_stops_midway_is_saved_and_explained(
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_run_is_saved(
-    number: signal.Signals,
-    in_empty_directory: Path,
-    simulation: Callable[..., None],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_an_interrupted_run_is_saved(number, in_empty_directory, simulation, capsys):
     def interrupt(stop: Callable[[], bool]) -> str:
         assert not stop()
         os.kill(os.getpid(), number)
@@ -165,13 +152,7 @@ def test_a_second_interrupt_or_one_before_the_first_step_aborts_at_once(
         (MemoryError(), 1),
     ],
 )
-def test_errors_of_the_simulation_are_one_line(
-    error: Exception,
-    status: int,
-    in_empty_directory: Path,
-    simulation: Callable[..., None],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_errors_of_the_simulation_are_one_line(error, status, in_empty_directory, simulation, capsys):
     def fail(stop: Callable[[], bool]) -> str:
         raise error
 
@@ -185,12 +166,7 @@ def test_errors_of_the_simulation_are_one_line(
     assert "Traceback" in capsys.readouterr().err
 
 
-def test_pictures_that_fail_do_not_lose_the_result(
-    in_empty_directory: Path,
-    simulation: Callable[..., None],
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_pictures_that_fail_do_not_lose_the_result(in_empty_directory, simulation, capsys, monkeypatch):
     def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         raise ValueError("no colour left")
 
@@ -204,9 +180,7 @@ def test_pictures_that_fail_do_not_lose_the_result(
     assert Path("results-vsv/result.nc").exists()
 
 
-def test_report_draws_stored_results_again(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_report_draws_stored_results_again(in_empty_directory, simulation, capsys):
     simulation()
     assert main(["run", "vsv", "-o", "out"]) == 0
     Path("out/report.html").unlink()
@@ -237,9 +211,7 @@ def campaign(monkeypatch: pytest.MonkeyPatch, make_campaign: ResultFactory) -> C
     return install
 
 
-def test_a_campaign_counts_cycles_and_leaves_no_checkpoint(
-    in_empty_directory: Path, campaign: Callable[[str], None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_campaign_counts_cycles_and_leaves_no_checkpoint(in_empty_directory, campaign, capsys):
     campaign("")
     assert main(CAMPAIGN) == 0
     assert not Path("out/checkpoint.npz").exists()
@@ -251,9 +223,7 @@ def test_a_campaign_counts_cycles_and_leaves_no_checkpoint(
     assert isinstance(summary["wear_cycles"], int)
 
 
-def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(
-    in_empty_directory: Path, campaign: Callable[[str], None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(in_empty_directory, campaign, capsys):
     campaign("interrupted")
     assert main(CAMPAIGN) == 1
     assert Path("out/checkpoint.npz").exists()
@@ -266,9 +236,7 @@ def test_a_campaign_that_stopped_keeps_its_checkpoint_and_goes_on(
     assert not Path("out/checkpoint.npz").exists()
 
 
-def test_a_finished_campaign_is_not_computed_again(
-    in_empty_directory: Path, campaign: Callable[[str], None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_finished_campaign_is_not_computed_again(in_empty_directory, campaign, capsys):
     campaign("")
     assert main(CAMPAIGN) == 0
     first = capsys.readouterr().out
@@ -283,9 +251,7 @@ def test_a_finished_campaign_is_not_computed_again(
     assert "cycles of wear" in capsys.readouterr().err
 
 
-def test_a_finished_result_of_another_case_is_spared(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_finished_result_of_another_case_is_spared(in_empty_directory, simulation, capsys):
     simulation()
     assert main(["run", "vsv", "-o", "out"]) == 0
     assert main(["run", "vsv", "-o", "out"]) == 0
@@ -299,17 +265,13 @@ def test_a_finished_result_of_another_case_is_spared(
 
 
 @pytest.mark.parametrize("value", ["'40 um'", '"40 um"', "40 um", " '40um' "])
-def test_quotes_left_around_a_value_are_taken_off(
-    value: str, in_empty_directory: Path, simulation: Callable[..., None]
-) -> None:
+def test_quotes_left_around_a_value_are_taken_off(value, in_empty_directory, simulation):
     simulation()
     assert main(["run", "vsv", "-o", "out", "--set", f"joint.clearance={value}"]) == 0
     assert 'clearance = "40 um"' in (in_empty_directory / "out" / "case.toml").read_text(encoding="utf-8")
 
 
-def test_figures_and_report_can_be_left_out(
-    in_empty_directory: Path, simulation: Callable[..., None], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_figures_and_report_can_be_left_out(in_empty_directory, simulation, capsys):
     simulation()
     assert main(["run", "vsv", "-o", "out", "--no-figures", "--no-report"]) == 0
     assert {path.name for path in Path("out").iterdir()} == {"result.nc", "summary.json", "case.toml"}

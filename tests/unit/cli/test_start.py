@@ -66,9 +66,7 @@ def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_the_help_of_a_command_ends_with_an_example_that_is_understood(
-    command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_help_of_a_command_ends_with_an_example_that_is_understood(command, monkeypatch, capsys):
     with pytest.raises(SystemExit):
         main([command, "--help"])
     example = " ".join(capsys.readouterr().out.split()).partition("example: ")[2]

@@ -32,9 +32,7 @@ def in_empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, simulate
     return tmp_path
 
 
-def test_a_sweep_leaves_everything_and_says_where(
-    in_empty_directory: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_sweep_leaves_everything_and_says_where(in_empty_directory, capsys):
     assert main(SWEEP) == 0
     out, err = capsys.readouterr()
     assert sorted(path.name for path in Path("sweep-vsv").iterdir()) == [
@@ -60,9 +58,7 @@ def test_json_is_one_document(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("samples", [[], ["--vary", "joint.radius=uniform(5 mm, 6 mm)", "--samples", "3"]])
-def test_a_report_made_again_gives_the_points_as_json(
-    samples: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_report_made_again_gives_the_points_as_json(samples, capsys):
     command = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,35 um", *samples]
     assert main([*command, "--quiet", "-o", "out"]) == 1
     capsys.readouterr()
@@ -75,9 +71,7 @@ def test_a_report_made_again_gives_the_points_as_json(
         assert ours["contact_force_max_N"] == theirs.get("contact_force_max_N")
 
 
-def test_failed_points_are_in_the_table_and_in_the_status(
-    simulated: list[Any], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_failed_points_are_in_the_table_and_in_the_status(simulated, capsys):
     command = ["sweep", "vsv", "--workers", "0", "--vary", "joint.clearance=20,35 um"]
     assert main(command) == 1
     out, err = capsys.readouterr()
@@ -100,9 +94,7 @@ def test_samples_print_statistics(capsys: pytest.CaptureFixture[str]) -> None:
     assert "median" in out
 
 
-def test_a_wide_table_is_cut_to_the_terminal(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_wide_table_is_cut_to_the_terminal(monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "40")
     vary = ["--vary", "joint.friction_coefficient=0.01:0.5:0.01", "--vary", "title=" + "x" * 60]
     assert main(["sweep", "vsv", "--workers", "0", *vary, "--summary-only"]) == 0
@@ -111,9 +103,7 @@ def test_a_wide_table_is_cut_to_the_terminal(
     assert max(map(len, out.splitlines()[3:44])) <= 60
 
 
-def test_an_interrupt_keeps_what_is_done(
-    simulated: list[Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_interrupt_keeps_what_is_done(simulated, monkeypatch, capsys):
     made_up = tribodyn.simulation.simulate
 
     def simulate(case: Any, **options: Any) -> xr.Dataset:
@@ -129,9 +119,7 @@ def test_an_interrupt_keeps_what_is_done(
     assert not list(Path().glob("sweep-vsv/points/*/report.html"))
 
 
-def test_pictures_that_fail_do_not_lose_the_result(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_pictures_that_fail_do_not_lose_the_result(monkeypatch, capsys):
     def draw_all(dataset: xr.Dataset, directory: Path, **_: object) -> None:
         raise ValueError("no colour left")
 
@@ -163,13 +151,7 @@ def test_pictures_that_fail_do_not_lose_the_result(
         (ON_TLS, "certificates"),
     ],
 )
-def test_bad_input_names_the_key_and_leaves_nothing(
-    options: list[str],
-    named: str,
-    in_empty_directory: Path,
-    simulated: list[Any],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_bad_input_names_the_key_and_leaves_nothing(options, named, in_empty_directory, simulated, capsys):
     assert main(["sweep", "vsv", "--quiet", *options]) == 2
     message = capsys.readouterr().err
     assert named in message
@@ -178,17 +160,13 @@ def test_bad_input_names_the_key_and_leaves_nothing(
     assert list(in_empty_directory.iterdir()) == []
 
 
-def test_a_scheduler_without_dask_says_what_to_install(
-    simulated: list[Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_scheduler_without_dask_says_what_to_install(simulated, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert main(["sweep", "vsv", "--vary", "joint.clearance=20 um", "--scheduler", "tcp://127.0.0.1:1"]) == 2
     assert "install tribodyn[cluster]" in capsys.readouterr().err
 
 
-def test_a_sweep_with_nothing_to_compute_starts_no_process(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_sweep_with_nothing_to_compute_starts_no_process(monkeypatch, capsys):
     assert main([*SWEEP, "-o", "out"]) == 0
 
     def never(**_: object) -> None:

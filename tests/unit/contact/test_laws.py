@@ -1,4 +1,7 @@
-"""What holds for every law, and for every damping factor of every law."""
+"""What every contact law keeps, over the list of laws and the surfaces they take."""
+
+import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -20,9 +23,7 @@ def test_pressure_falls_with_separation(table_1_pair: SurfacePair, name: str) ->
 
 
 @pytest.mark.parametrize("name", LAWS)
-def test_area_and_count_fall_with_separation_where_the_theory_has_them(
-    table_1_pair: SurfacePair, name: str
-) -> None:
+def test_area_and_count_fall_with_separation_where_the_theory_has_them(table_1_pair, name):
     found = law(name, table_1_pair)
     for values in (found.real_area_fraction(H_STAR), found.contact_count(H_STAR)):
         assert values.shape == H_STAR.shape
@@ -85,9 +86,7 @@ def test_a_given_restitution_replaces_that_of_the_paper(table_1_pair: SurfacePai
         ("linear", {"penalty_stiffness": 0.0}, "contact.penalty_stiffness"),
     ],
 )
-def test_impossible_options_are_refused_by_key(
-    table_1_pair: SurfacePair, name: str, options: dict[str, object], key: str
-) -> None:
+def test_impossible_options_are_refused_by_key(table_1_pair, name, options, key):
     with pytest.raises(InputError) as caught:
         LAWS[name](table_1_pair, **options)  # type: ignore[arg-type]
     assert caught.value.key == key
@@ -105,3 +104,44 @@ def test_surfaces_too_smooth_for_a_spread_of_asperities_are_refused(table_1_pair
     sparse = dataclasses.replace(table_1_pair, asperity_density=1e9)
     with pytest.raises(InputError, match=r"exceed 0\.0193"):
         GreenwoodWilliamson(sparse, separation_from="surface")
+
+
+def test_unknown_law_names_the_known_ones(table_1_pair: SurfacePair) -> None:
+    with pytest.raises(InputError, match="ke, rsdc") as caught:
+        law("hertz", table_1_pair)
+    assert caught.value.key == "contact.law"
+
+
+def test_options_of_no_law_are_refused(table_1_pair: SurfacePair) -> None:
+    with pytest.raises(InputError, match="dampng"):
+        law("ke", table_1_pair, dampng="flores")
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_pressure_takes_a_gap_in_metres(table_1_pair: SurfacePair, name: str) -> None:
+    found = law(name, table_1_pair)
+    gap = np.array([[0.0, 1e-6], [2e-6, 5e-6]])
+    expected = found.stiffness_pressure(gap / table_1_pair.roughness_rms)
+    np.testing.assert_array_equal(found.pressure(gap), expected)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("young_modulus", (203e9, 0.0)),
+        ("young_modulus", (math.nan, 7e9)),
+        ("hardness", -1.0),
+        ("hardness", math.inf),
+        ("asperity_density", 0.0),
+        ("asperity_radius", math.nan),
+        ("roughness", (0.0, 0.0)),
+        ("roughness", (-1e-6, 2e-6)),
+        ("roughness", (1e-6, math.nan)),
+        ("poisson_ratio", (0.3, 0.51)),
+        ("poisson_ratio", (math.nan, 0.3)),
+    ],
+)
+def test_impossible_surfaces_are_refused_by_key(table_1_pair: SurfacePair, key: str, value: object) -> None:
+    with pytest.raises(InputError) as caught:
+        dataclasses.replace(table_1_pair, **{key: value})
+    assert caught.value.key == key

@@ -35,9 +35,7 @@ def test_on_a_rigid_base_nothing_changes(table: ContactTable) -> None:
 
 
 @pytest.mark.parametrize("gap", GAPS)
-def test_asperities_and_layer_carry_the_same_pressure(
-    table: ContactTable, stiffness: float, gap: float
-) -> None:
+def test_asperities_and_layer_carry_the_same_pressure(table, stiffness, gap):
     soft = lined(table, stiffness)
     pressure, slope, damping, _ = pressure_and_damping(soft, gap)
     separation = gap + pressure / stiffness

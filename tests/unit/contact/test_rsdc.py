@@ -55,9 +55,7 @@ def flat_impact(table: ContactTable, depth: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("depth", [2.0, 1.0, 0.0, -1.0])
-def test_flat_impact_rebounds_with_about_the_restitution_meant(
-    table_1_pair: SurfacePair, depth: float
-) -> None:
+def test_flat_impact_rebounds_with_about_the_restitution_meant(table_1_pair, depth):
     law = RSDC(table_1_pair)
     deepest, rebound = flat_impact(tabulate(law), depth)
     # The law is not made to return e exactly; that it does to 0.013 is a finding that the manual states.

@@ -98,9 +98,7 @@ def test_damping_is_zero_above_the_onset_and_whole_below_it(table_1_pair: Surfac
         (-3.5, 1.0, "contact.onset_separation"),
     ],
 )
-def test_impossible_onset_is_refused_by_key(
-    table_1_pair: SurfacePair, onset: float, width: float, key: str
-) -> None:
+def test_impossible_onset_is_refused_by_key(table_1_pair, onset, width, key):
     with pytest.raises(InputError) as caught:
         tabulate(KogutEtsion(table_1_pair), onset=onset, smoothing_width=width)
     assert caught.value.key == key

@@ -51,9 +51,7 @@ def test_a_public_function_says_what_it_takes_returns_and_raises(function: Calla
 
 
 @pytest.mark.parametrize("method", list(methods()))
-def test_a_public_method_says_what_it_takes_and_returns_and_what_it_raises_itself(
-    method: Callable[..., Any],
-) -> None:
+def test_a_public_method_says_what_it_takes_and_returns_and_what_it_raises_itself(method):
     said = check(method)
     assert "Raises" in said or "    raise " not in inspect.getsource(method)
 

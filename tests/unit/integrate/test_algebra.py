@@ -188,7 +188,7 @@ def test_the_equation_that_does_not_hold_is_named_among_many_equations(own):
         rhs(t, y, data, memory, f)
         f[401] = 1.0 + y[401] ** 2
 
-    problem = with_mass(601, own)
+    problem = with_mass(451, own)
     problem = replace(problem, functions=replace(problem.functions, rhs=unsolvable))
     failure = integrate(problem).failure or ""
     assert "The values at t = 0 are not consistent: equation 401 leaves a residual of" in failure

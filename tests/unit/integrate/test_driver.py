@@ -1,4 +1,6 @@
-"""The order in which the driver calls the functions of a problem, with a method of known steps."""
+"""The loop over steps: schedule, order of calls, functions that are bound, patience with slow runs."""
+
+from __future__ import annotations
 
 import time
 from dataclasses import dataclass
@@ -6,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from tribodyn.core.errors import IntegrationFailure
-from tribodyn.core.problem import CompiledFunctions, Problem
-from tribodyn.integrate.base import Step
-from tribodyn.integrate.driver import INTERRUPTED, IntegrationTask, Stepwise
+from tribodyn.core.errors import InputError, IntegrationFailure
+from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
+from tribodyn.integrate import driver
+from tribodyn.integrate.base import Binding, Step
+from tribodyn.integrate.driver import INTERRUPTED, LOOK, IntegrationTask, Patience, Stepwise
 from tribodyn.integrate.following import make_schedule
 
 
@@ -153,3 +156,130 @@ def test_stop_is_asked_in_the_middle_of_a_step_that_takes_long():
     assert solution.failure == INTERRUPTED
     assert (solution.t_end, solution.statistics.steps) == (0.0, 0)
     assert time.monotonic() - began < 60.0
+
+
+def test_marks_are_the_union_of_outputs_and_pictures():
+    schedule = make_schedule((0.0, 4.0), (2.0,), [0.0, 1.0, 2.0], [1.0, 1.5, 4.0])
+    np.testing.assert_array_equal(schedule.edges, [0.0, 2.0, 4.0])
+    np.testing.assert_array_equal(schedule.marks, [0.0, 1.0, 1.5, 2.0, 4.0])
+    np.testing.assert_array_equal(schedule.is_output, [True, True, False, True, False])
+    np.testing.assert_array_equal(schedule.is_picture, [False, True, True, False, True])
+
+
+def test_times_a_rounding_error_apart_are_the_same_mark():
+    assert 3 * 0.1 != 0.3
+    schedule = make_schedule((0.0, 1.0), (0.3,), [0.1 * k for k in range(11)], [0.3, 0.7])
+    assert schedule.marks.size == 11
+    assert 0.3 in schedule.marks.tolist()
+    assert schedule.is_picture.sum() == 2
+    assert schedule.output_times[3] == 3 * 0.1, "outputs are returned as they were asked for"
+
+
+@pytest.mark.parametrize(
+    ("span", "outputs", "message"),
+    [
+        ((0.0, 0.0), [], "finite and increasing"),
+        ((1.0, 0.0), [], "finite and increasing"),
+        ((0.0, np.inf), [], "finite and increasing"),
+        ((0.0, 1.0), [0.0, 0.5, 0.5], "must increase"),
+        ((0.0, 1.0), [0.5, 0.2], "must increase"),
+        ((0.0, 1.0), [0.5, 1.1], "between 0 s and 1 s"),
+        ((0.0, 1.0), [-0.1], "between 0 s and 1 s"),
+        ((0.0, 1.0), [np.nan], "finite"),
+    ],
+)
+def test_times_that_cannot_be_kept_are_refused(span, outputs, message):
+    with pytest.raises(InputError, match=message):
+        make_schedule(span, (), outputs, ())
+
+
+def nothing(*_):
+    return None
+
+
+def make_problem(rhs=nothing, jac=nothing, data=None, memory=None):
+    return Problem(
+        functions=CompiledFunctions(rhs, jac, nothing, nothing, nothing, nothing, nothing),
+        data=data,
+        memory=memory,
+        y0=np.array([1.0, 2.0]),
+        t_span=(0.0, 1.0),
+        breakpoints=(),
+        atol=np.array([1e-6, 1e-6]),
+        state_names=("gap", "speed"),
+        n_observed=1,
+        field_shape=(1, 2, 2),
+    )
+
+
+def bind(problem):
+    statistics = Statistics()
+    return Binding(problem, problem.functions, statistics), statistics
+
+
+def linear(t, y, data, memory, f):
+    f[:] = t * y
+
+
+def test_a_first_jacobian_that_is_not_finite_names_the_entry():
+    def jac(t, y, data, memory, f, jacobian):
+        jacobian[1, 0] = np.inf
+
+    binding, _ = bind(make_problem(jac=jac))
+    with pytest.raises(IntegrationFailure, match=r"d\(rate of speed\)/d\(gap\) is not finite"):
+        binding.jac(0.0, np.ones(2))
+
+
+def test_a_rate_that_is_not_finite_is_noted_with_time_and_name():
+    binding, _ = bind(make_problem(linear))
+    binding.rhs(2.5, np.array([1.0, np.nan]))
+    assert binding.reason("gave up") == "gave up; the rate of speed was not finite at t = 2.5 s"
+
+
+DURATION = 1.0
+
+
+class Clock:
+    """A clock that the test turns."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def monotonic(self) -> float:
+        """Return the time [s]."""
+        return self.now
+
+
+def looks(monkeypatch: pytest.MonkeyPatch, marks: list[tuple[float, int]]) -> None:
+    """Look at a run of one second at marks of simulated time and evaluations, five seconds apart."""
+    clock = Clock()
+    monkeypatch.setattr(driver, "time", clock)
+    watched = Patience(make_schedule((0.0, DURATION), (), np.linspace(0.0, DURATION, 501), ()))
+    for t, evaluations in marks:
+        clock.now += 1.25 * LOOK
+        watched.look(t, evaluations)
+
+
+@pytest.mark.parametrize(
+    "marks",
+    [[(0.3, 5000), (0.3 + 1e-12, 60_000)], [(1e-13, 50_000)], [(0.5, 100_000), (0.5, 200_000)]],
+    ids=["collapsed", "from the start", "no step at all"],
+)
+def test_a_run_that_is_stuck_ends_within_two_looks(monkeypatch, marks):
+    with pytest.raises(IntegrationFailure, match="no progress any more"):
+        looks(monkeypatch, marks)
+    assert 2.0 * LOOK < 10.0
+
+
+@pytest.mark.parametrize(
+    "marks",
+    [
+        [(0.3, 5000), (0.3 + 1e-4, 60_000), (0.6, 65_000)],
+        [(1e-4, 50_000), (2e-4, 100_000), (3e-4, 150_000)],
+        [(0.3, 5000), (0.3, 5100), (0.3, 5200)],
+        [(0.999, 5000), (0.999 + 1e-5, 105_000)],
+    ],
+    ids=["an impact", "slow all the time", "dear evaluations", "near the end"],
+)
+def test_a_run_that_is_slow_goes_on(monkeypatch: pytest.MonkeyPatch, marks: list[tuple[float, int]]) -> None:
+    looks(monkeypatch, marks)

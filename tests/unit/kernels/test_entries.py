@@ -1,11 +1,15 @@
-"""What Python calls is in the library, which refuses arguments that do not fit."""
+"""Entries of the library: all are there, with and without compilation, and none depends on the processor."""
 
 from __future__ import annotations
 
 import ast
 import importlib
 import json
+import os
+import re
 import struct
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -21,6 +25,7 @@ from mebdf.compiled.kernel import Kernel, entries
 from mebdf.compiled.library import LEVELS, MANIFEST, fingerprint
 from mebdf.kernels import jit as solver
 from tribodyn.kernels import jit
+from tribodyn.mechanism import elements
 
 SOURCES = (solver.SOURCES, jit.SOURCES)
 LISTED = [kernel for sources in SOURCES for kernel in entries(sources)]
@@ -101,3 +106,61 @@ def test_the_library_is_small_and_names_no_place_and_no_function_of_others(sourc
     assert str(sources.package.parent).encode() not in content
     assert b".py" not in content
     assert len(content) < 1.2e6
+
+
+SCRIPT = """
+from tribodyn import simulate
+from tribodyn.mechanisms.catalogue import load_case
+
+# Few nodes, and a law with few integrals.
+small = {"solver.grid.theta": 12, "solver.grid.z": 2, "contact.law": "gw"}
+case = load_case("vsv").replace(small | {"run.duration": "0.02 ms", "run.output_interval": "0.01 ms"})
+print(float(simulate(case)["F_cx"][-1]))
+"""
+
+
+def force(disabled: str) -> float:
+    """Return the contact force at the end of a short run [N]."""
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": disabled}
+    done = subprocess.run([sys.executable, "-c", SCRIPT], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return float(done.stdout)
+
+
+def test_a_run_without_compilation_is_the_same() -> None:
+    # To the rounding of elementary functions, which NumPy evaluates otherwise.
+    assert force("1") == pytest.approx(force("0"), rel=1e-9)
+
+
+SOLVER, PACKAGE = Path(mebdf.__file__).parent, Path(tribodyn.__file__).parent
+KERNELS = [*SOLVER.glob("kernels/**/*.py"), *PACKAGE.glob("kernels/**/*.py")]
+LAWS = list(Path(elements.__file__).parent.glob("*.py"))  #: Force laws are compiled, too.
+#: Functions of ``math`` and NumPy that the C library or NumPy chooses by the processor.
+INEXACT = re.compile(r"(arc|a)?(sin|cos|tan)h?2?|exp[m1|2]*|log\w*|pow|power|float_power|hypot|cbrt|erfc?")
+
+
+def inexact(source: str) -> Iterator[str]:
+    """Yield the uses of such functions, and powers of variables that are not whole numbers."""
+    for node in ast.walk(ast.parse(source)):
+        match node:
+            case ast.Attribute(value=ast.Name(id="math" | "np"), attr=name) if INEXACT.fullmatch(name):
+                yield ast.unparse(node)
+            case ast.BinOp(op=ast.Pow(), right=ast.Constant(value=int())) | ast.BinOp(left=ast.Constant()):
+                pass
+            case ast.BinOp(op=ast.Pow()):
+                yield ast.unparse(node)
+
+
+def test_uses_are_found() -> None:
+    source = (
+        "math.sin(x) + np.arctan2(y, x) + x**2 + x**1.5 + math.sqrt(x) + y**n + np.expand_dims(2.0**-3, 0)"
+    )
+    assert sorted(inexact(source)) == ["math.sin", "np.arctan2", "x ** 1.5", "y ** n"]
+
+
+def test_kernels_and_laws_use_no_function_that_depends_on_the_processor() -> None:
+    assert len(KERNELS) > 50
+    # Constants are computed by whole numbers.
+    given = [path for path in (*KERNELS, *LAWS) if path.name != "constants.py"]
+    found = {str(path): list(inexact(path.read_text())) for path in given}
+    assert not {path: uses for path, uses in found.items() if uses}

@@ -63,9 +63,7 @@ def names(folder: Path) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES.keys())
-def test_a_change_of_what_is_compiled_here_changes_this_name_alone(
-    copy: Path, change: Callable[[Path], object]
-) -> None:
+def test_a_change_of_what_is_compiled_here_changes_this_name_alone(copy, change):
     before = {name: library.fingerprint(sources) for name, sources in ALL.items()}
     append("tribodyn/core/errors.py")(copy)
     assert names(copy) == before

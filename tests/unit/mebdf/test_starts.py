@@ -147,7 +147,7 @@ def test_an_integration_of_index_3_goes_on_at_breakpoints(rtol):
 
 
 @pytest.mark.filterwarnings("ignore:The values at t:UserWarning")
-@pytest.mark.parametrize("rtol", 10.0 ** -np.arange(3.0, 10.0))
+@pytest.mark.parametrize("rtol", 10.0 ** -np.arange(3.0, 8.0))
 def test_values_of_index_3_that_a_run_has_left_are_a_start(rtol):
     # 41 of these 210 were refused, and the values at a terminal event at 5 of 7 tolerances.
     problem = pendulum(3)

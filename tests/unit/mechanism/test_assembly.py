@@ -203,9 +203,7 @@ def test_a_drive_against_a_locked_joint_has_nothing_to_drive() -> None:
         ),
     ],
 )
-def test_an_axis_out_of_plane_that_locks_a_drive_is_named(
-    old: str, new: tuple[float, float, float], words: str
-) -> None:
+def test_an_axis_out_of_plane_that_locks_a_drive_is_named(old, new, words):
     keys = {f"joints.{old}.axis": list(new), "joints.wrist.clearance.ideal": True}
     assembly = assemble(model_of(td.load_case("slider-crank").replace(keys)))
     found = [*assembly.findings, drive_through(assembly, 0.01).finding]

@@ -1,4 +1,6 @@
-"""What runs of user-defined mechanisms say of each of their contacts."""
+"""What runs of user-defined mechanisms say of their contacts, and the gallery answers its questions."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -6,7 +8,8 @@ from tests.unit.mechanism.test_system import bob
 
 import tribodyn as td
 from tribodyn.cases.case import with_entries
-from tribodyn.mechanisms.results import summarise
+from tribodyn.mechanism.descriptor import GALLERY, TEMPLATES
+from tribodyn.mechanisms.results import known, summarise
 from tribodyn.simulation import check
 
 BRIEF = {"run.duration": "20 ms", "run.output_interval": "5 ms", "solver.rtol": 1e-4}
@@ -74,3 +77,26 @@ def test_the_error_of_the_grid_is_that_of_the_worn_joint() -> None:
     errors = result["grid_force_error"].values
     assert np.all(np.isfinite(errors))
     assert np.all(errors < 0.1)
+
+
+def test_the_gallery_has_twelve_mechanisms() -> None:
+    assert len(GALLERY) == 12
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_a_template_says_what_it_is(name: str) -> None:
+    assert TEMPLATES[name].title
+    assert len(TEMPLATES[name].description.split()) > 5
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_a_mechanism_of_the_gallery_answers_its_question(name: str, tmp_path: Path) -> None:
+    path = tmp_path / f"{name}.toml"
+    path.write_text(GALLERY[name].text, encoding="utf-8")
+    result = td.simulate(path)
+    summary = summarise(result)
+    assert result.attrs["failure"] == ""
+    assert not summary["doubtful"]
+    assert GALLERY[name].question.endswith("?")
+    assert 0 < len(GALLERY[name].results) == len(known(GALLERY[name].results, "mechanism"))
+    assert set(GALLERY[name].results) <= set(summary)

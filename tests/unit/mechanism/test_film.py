@@ -7,7 +7,6 @@ import xarray as xr
 import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.mechanism import functions
-from tribodyn.lubrication import Film, FilmGrid, stacked_data
 from tribodyn.mechanism.system import MechanismSystem
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.results import summarise
@@ -94,12 +93,6 @@ def test_a_state_without_an_answer_leaves_nothing_behind() -> None:
     assert np.isnan(f).any()
     functions.rhs(0.0, y, data, memory, f)
     assert f == pytest.approx(before, rel=1e-12, abs=1e-9)
-
-
-def test_films_of_one_mechanism_have_one_grid() -> None:
-    coarse, fine = (Film(0.01, 20e-6, 6e-3, 20e-3, grid=FilmGrid(96, z)) for z in (8, 16))
-    with pytest.raises(InputError, match="one grid"):
-        stacked_data([coarse, fine], [None, None])
 
 
 def test_a_worn_bore_has_a_film_of_its_shape() -> None:

@@ -217,9 +217,7 @@ PLAYS += [(kind, "cylinder", FACES) for kind, about in JOINTS.items() if about.F
 
 
 @pytest.mark.parametrize(("kind", "shape", "more"), PLAYS)
-def test_a_clearance_holds_what_its_ideal_counterpart_holds(
-    kind: str, shape: str, more: dict[str, str]
-) -> None:
+def test_a_clearance_holds_what_its_ideal_counterpart_holds(kind, shape, more):
     """Beyond the play the surfaces push back along what the ideal joint holds, else nowhere."""
     model = model_of(drawn(kind, shape=shape, **SHAPES[shape].EXAMPLE, **more).case())
     clearance = model.clearances["link"]

@@ -106,11 +106,6 @@ def test_a_body_from_a_file_and_its_scale(tmp_path: Path) -> None:
     assert again.bodies["lever"].mass == pytest.approx(0.125 * plain.mass)
 
 
-def test_a_unit_of_a_file_is_one_of_it(tmp_path: Path) -> None:
-    plain = case(tmp_path, mesh_unit="1 cm").case().bodies["lever"]
-    assert case(tmp_path, mesh_unit="cm").case().bodies["lever"] == plain
-
-
 def test_a_scale_is_that_of_a_mesh(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="a mesh needs its triangles"):
         td.Mechanism("Lever").body("lever", shape="mesh", density="7850 kg/m^3").case()

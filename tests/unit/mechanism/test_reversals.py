@@ -80,9 +80,7 @@ def both() -> tuple[xr.Dataset, xr.Dataset]:
     return reduced, td.simulate(drawn)
 
 
-def test_a_user_defined_vane_has_the_reversals_of_the_reduced_one(
-    both: tuple[xr.Dataset, xr.Dataset],
-) -> None:
+def test_a_user_defined_vane_has_the_reversals_of_the_reduced_one(both):
     reduced, drawn = both
     np.testing.assert_allclose(drawn["reversal_time"], reduced["reversal_time"], rtol=1e-12)
     assert drawn.attrs["impact_time"] == pytest.approx(reduced.attrs["impact_time"], rel=1e-12)
@@ -117,17 +115,8 @@ def test_a_result_with_an_ideal_joint_is_read_again(tmp_path: Path) -> None:
     assert td.read(tmp_path).identical(result)
 
 
-def test_a_user_defined_vane_has_the_flash_temperature_of_the_reduced_one(
-    both: tuple[xr.Dataset, xr.Dataset],
-) -> None:
+def test_a_user_defined_vane_has_the_flash_temperature_of_the_reduced_one(both):
     reduced, drawn = both
     flash = float(drawn["flash_temperature"].sel(joint="trunnion"))
     assert flash == pytest.approx(reduced.attrs["flash_temperature"], rel=0.05)
     assert np.isnan(drawn["flash_temperature"].sel(joint="pin"))
-
-
-def test_a_window_without_rows_has_no_peak() -> None:
-    t = np.array([0.0, 0.1, 1.5])
-    found = of_rows(t, {"force": np.array([[1.0], [-3.0], [2.0]])}, np.array([0.0, 1.0]), 0.2)
-    np.testing.assert_array_equal(found["force_impact"], [[3.0], [np.nan]])
-    np.testing.assert_array_equal(found["force_outside"], [[np.nan], [2.0]])

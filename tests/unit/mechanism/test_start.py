@@ -155,9 +155,7 @@ TYPES = {"faces": "revolute", "sphere": "spherical", "ball": "pin-slot"}
 @pytest.mark.parametrize("between", ['["rod", "slider"]', '["slider", "rod"]'])
 @pytest.mark.parametrize("socket", ["rod", "slider"])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_a_start_is_in_equilibrium_whichever_body_carries_the_bore(
-    shape: str, socket: str, between: str
-) -> None:
+def test_a_start_is_in_equilibrium_whichever_body_carries_the_bore(shape, socket, between):
     # At dead centre the rod turns at 218 rad/s and its angular acceleration is zero. A pin
     # that is displaced by 20 um and at rest in the axes of the wrong body approaches its bore at 4 mm/s.
     drawn = DRIVEN.replace(WRIST_JOINT, f'type = "{TYPES.get(shape, "cylindrical")}"\nbetween = {between}')

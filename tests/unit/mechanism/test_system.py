@@ -50,11 +50,6 @@ def test_what_is_not_unique_is_said_by_name(turn: xr.Dataset) -> None:
     assert all(name in told for name in ("main", "pin", "wrist", "guide"))
 
 
-def test_energy_is_accounted_for(turn: xr.Dataset) -> None:
-    # Of the largest term; ten times the tolerance of the run.
-    assert abs(turn.attrs["energy_residual"]) < 1e-3
-
-
 def test_a_pendulum_on_a_pin_presses_it_down(tmp_path: Path) -> None:
     result = td.simulate(bob(friction_coefficient=0.0).case())
     results.write_run(result, tmp_path)
@@ -141,12 +136,6 @@ def test_power_is_what_the_balance_says_and_not_the_error_of_a_sum_of_works() ->
     # The work goes to and fro by 150 J, of which the sum over steps misses 0.1 %, and 5.4 J are lost: such a
     # sum scatters by 8 % at 1e-4, what became heat by 0.13 %.
     assert told[0]["drive_power_mean_W"] == pytest.approx(told[1]["drive_power_mean_W"], rel=5e-3)
-
-
-def test_a_clearance_may_be_kept_for_later() -> None:
-    result = td.simulate(bob(ideal=True).case())
-    assert "surface" not in result.dims
-    assert float(abs(result["displacement"]).max()) < 1e-12
 
 
 def test_a_campaign_wears_and_goes_on_where_it_was(tmp_path: Path) -> None:

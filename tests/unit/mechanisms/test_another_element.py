@@ -1,5 +1,6 @@
-"""A part is one file, with one line in a list: those of the manual are added to a copy, and run."""
+"""A part is one file, with one line in a list: those of the manual are added to one copy, and run."""
 
+import json
 import os
 import re
 import shutil
@@ -13,8 +14,9 @@ import tribodyn
 
 SOURCE = Path(tribodyn.__file__).parent
 PAGE = Path(__file__).parents[3] / "CONTRIBUTING.md"
-#: Tests over the lists of types of joints and of shapes of their clearances.
-OVER_JOINTS = "tests/unit/mechanism/test_joints.py"
+#: Tests over the lists of elements, of types of joints with shapes of their clearances, and of laws.
+OVER_ELEMENTS, OVER_JOINTS = "tests/unit/mechanism/test_elements.py", "tests/unit/mechanism/test_joints.py"
+OVER_LAWS = ("tests/analytic/test_contact_limits.py", "tests/unit/contact/test_laws.py")
 RUN = """
 import numpy as np, tribodyn as td
 from tribodyn.cases.load import parse
@@ -122,18 +124,39 @@ def execute(args):
 '''
 
 
+COMMANDS = """
+from tribodyn.cli.main import main
+assert main(["hello"]) == main(["cases"]) == 0
+"""
+SCRIPTS = {
+    "belt": RUN.format(method="belt", check=BELT),
+    "stokes": RUN.format(method="stokes", check=STOKES),
+    "joint": JOINT,
+    "shape": SHAPE,
+    "law": LAW,
+    "command": COMMANDS,
+    "chart": CHART,
+    "model": MODEL,
+}
+#: Runs scripts one after the other, each by itself, and prints what each fails with.
+ALL = """
+import json, sys, traceback
+failed = {}
+for name, script in json.load(sys.stdin).items():
+    try:
+        exec(script, {"__name__": name})
+    except BaseException:
+        failed[name] = traceback.format_exc()
+print(json.dumps(failed), file=sys.stderr)
+"""
+
+
 def of_manual(first: str, language: str = "python") -> str:
     """Return the block of code in the manual that begins with these words."""
     page = PAGE.read_text(encoding="utf-8")
     found = re.search(rf"^```{language}\n({re.escape(first)}.*?)^```", page, re.M | re.S)
     assert found is not None
     return found[1]
-
-
-def copy_of_package(place: Path) -> Path:
-    copy = place / "tribodyn"
-    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    return copy
 
 
 def insert(path: Path, before: str, added: str) -> None:
@@ -143,77 +166,65 @@ def insert(path: Path, before: str, added: str) -> None:
     path.write_text(text.replace(before, added + before), encoding="utf-8")
 
 
-def run(place: Path, script: str) -> None:
-    """Run a script with the copy of the package in a folder; machine code is that of the same kernels."""
+def process(place: Path, *arguments: str, folder: Path, text: str = "") -> subprocess.CompletedProcess[str]:
+    """Run Python with the copy of the package in a place; machine code is that of the same kernels."""
     environment = os.environ | {"PYTHONPATH": str(place)}
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=place, env=environment, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=folder, env=environment, input=text, capture_output=True, text=True)
 
 
-def failures(place: Path, *tests: str) -> str:
-    """Run tests with the copy of the package in a folder; return what pytest says, empty if all pass."""
-    environment = os.environ | {"PYTHONPATH": str(place)}
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *tests]
-    done = subprocess.run(command, cwd=PAGE.parent, env=environment, capture_output=True, text=True)
+def failures(place: Path, which: str, *tests: str) -> str:
+    """Run tests of some names with the copy of the package; return what pytest says, empty if all pass."""
+    command = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", which, *tests)
+    done = process(place, *command, folder=PAGE.parent)
     return done.stdout + done.stderr if done.returncode else ""
 
 
-def run_with(place: Path, folder: str, title: str, first: str, script: str) -> Path:
-    """Run a script with code of the manual, found by its title, added to a package of the mechanisms."""
-    package = copy_of_package(place) / "mechanism" / folder
-    module = title.lower().replace(" ", "_")
-    (package / f"{module}.py").write_text(of_manual(f'"""{title}'), encoding="utf-8")
-    insert(package / "__init__.py", f'"{first}"', f'"{module}", ')
-    run(place, script)
-    return package / f"{module}.py"
-
-
-@pytest.mark.parametrize(("title", "check"), [("Belt", BELT), ("Stokes", STOKES)])
-def test_an_element_of_the_manual_takes_one_file_and_one_line(tmp_path: Path, title: str, check: str) -> None:
-    script = RUN.format(method=title.lower(), check=check)
-    run_with(tmp_path, "elements", title, "gear", script)
-    assert not failures(tmp_path, "tests/unit/mechanism/test_elements.py")
-
-
-def test_a_joint_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
-    run_with(tmp_path, "joints", "Ball on plane", "ideal", JOINT)
-    assert not failures(tmp_path, OVER_JOINTS)
-
-
-def test_a_shape_of_a_clearance_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
-    added = run_with(tmp_path, "shapes", "Oval bore", "mesh", SHAPE)
-    assert not failures(tmp_path, OVER_JOINTS)
-    insert(added, "barrel.gap + ", "1e3 * ")
-    assert "oval-bore" in failures(tmp_path, OVER_JOINTS, "-k", "oval-bore")
-
-
-def test_a_contact_law_of_the_manual_takes_one_file_and_one_line(tmp_path: Path) -> None:
-    package = copy_of_package(tmp_path) / "contact"
-    (package / "exponential.py").write_text(of_manual('"""Exponential'), encoding="utf-8")
-    insert(package / "__init__.py", '    "linear:LinearContact",\n', '    "exponential:Exponential",\n')
-    run(tmp_path, LAW)
-    assert not failures(tmp_path, "tests/analytic/test_contact_limits.py", "tests/unit/contact/test_laws.py")
-
-
-def test_a_command_takes_one_file_and_one_name(tmp_path: Path) -> None:
-    folder = copy_of_package(tmp_path) / "cli"
-    (folder / "commands" / "hello.py").write_text(COMMAND, encoding="utf-8")
-    insert(folder / "main.py", '    "completion",\n', '    "hello",\n')
-    run(tmp_path, "from tribodyn.cli.main import main; import sys; sys.exit(main(['hello']))")
-    run(tmp_path, "from tribodyn.cli.main import main; import sys; sys.exit(main(['cases']))")
-
-
-def test_a_chart_of_the_manual_takes_one_file(tmp_path: Path) -> None:
-    charts = copy_of_package(tmp_path) / "mechanism" / "sections" / "charts.py"
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder with a copy of the package to which all parts of the manual are added."""
+    place = tmp_path_factory.mktemp("copy")
+    copy = place / "tribodyn"
+    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    for folder, title, first in (
+        ("elements", "Belt", "gear"),
+        ("elements", "Stokes", "gear"),
+        ("joints", "Ball on plane", "ideal"),
+        ("shapes", "Oval bore", "mesh"),
+    ):
+        module, package = title.lower().replace(" ", "_"), copy / "mechanism" / folder
+        (package / f"{module}.py").write_text(of_manual(f'"""{title}'), encoding="utf-8")
+        insert(package / "__init__.py", f'"{first}"', f'"{module}", ')
+    (copy / "contact" / "exponential.py").write_text(of_manual('"""Exponential'), encoding="utf-8")
+    insert(
+        copy / "contact" / "__init__.py", '    "linear:LinearContact",\n', '    "exponential:Exponential",\n'
+    )
+    (copy / "cli" / "commands" / "hello.py").write_text(COMMAND, encoding="utf-8")
+    insert(copy / "cli" / "main.py", '    "completion",\n', '    "hello",\n')
+    charts = copy / "mechanism" / "sections" / "charts.py"
     insert(charts, "CHARTS: Final = (", of_manual("def heights"))
     insert(charts, "MOTION)\n", "HEIGHTS, ")
-    run(tmp_path, CHART)
-
-
-def test_a_model_of_the_manual_takes_one_file(tmp_path: Path) -> None:
-    folder = copy_of_package(tmp_path) / "mechanism" / "built_in"
     model = of_manual("# A uniform rod", "toml")
-    (folder / "swinging-rod.toml").write_text(model, encoding="utf-8")
-    run(tmp_path, MODEL)
+    (copy / "mechanism" / "built_in" / "swinging-rod.toml").write_text(model, encoding="utf-8")
+    return place
+
+
+@pytest.fixture(scope="module")
+def failed(place: Path) -> dict[str, str]:
+    """Return what fails of the scripts, all run by one process."""
+    done = process(place, "-c", ALL, folder=place, text=json.dumps(SCRIPTS))
+    assert done.returncode == 0, done.stderr
+    found: dict[str, str] = json.loads(done.stderr.splitlines()[-1])
+    return found
+
+
+@pytest.mark.parametrize("part", SCRIPTS)
+def test_a_part_of_the_manual_takes_one_file_and_at_most_one_line(part: str, failed: dict[str, str]) -> None:
+    assert part not in failed, failed[part]
+
+
+def test_tests_over_lists_hold_for_the_parts_and_find_a_wrong_one(place: Path) -> None:
+    which = "Belt or Stokes or ball-on-plane or oval-bore or exponential"
+    assert not failures(place, which, OVER_ELEMENTS, OVER_JOINTS, *OVER_LAWS)
+    insert(place / "tribodyn" / "mechanism" / "shapes" / "oval_bore.py", "barrel.gap + ", "1e3 * ")
+    assert "oval-bore" in failures(place, "oval-bore", OVER_JOINTS)

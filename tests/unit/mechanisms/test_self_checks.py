@@ -125,14 +125,7 @@ def test_a_sound_run_is_silent(make_vsv: Callable[..., Vsv], told: Callable[...,
     ("told", "name", "limit", "way", "words"),
     [(of_vsv, *case) for case in ONLY_VSV] + [(told, *case) for told in EVERY for case in CASES],
 )
-def test_a_threshold_is_where_the_warning_begins(
-    make_vsv: Callable[..., Vsv],
-    told: Callable[..., list[str]],
-    name: str,
-    limit: float,
-    way: float,
-    words: str,
-) -> None:
+def test_a_threshold_is_where_the_warning_begins(make_vsv, told, name, limit, way, words):
     for off, expected in ((-1e-6, 0), (1e-6, 1)):
         seen = SOUND | {name: limit + way * off}
         messages = told(make_vsv(), seen, statistics(seen))
@@ -142,9 +135,7 @@ def test_a_threshold_is_where_the_warning_begins(
 
 @pytest.mark.parametrize("told", EVERY)
 @pytest.mark.parametrize(("name", "value"), [("hardness", 0.5), ("area", 0.16)])
-def test_an_overload_names_its_instant(
-    make_vsv: Callable[..., Vsv], told: Callable[..., list[str]], name: str, value: float
-) -> None:
+def test_an_overload_names_its_instant(make_vsv, told, name, value):
     (message,) = told(make_vsv(), SOUND | {name: value}, statistics(SOUND))
     assert "at t = 0.7503 s" in message
     assert ("the impact after the reversal at 0.75 s" in message) == (told is of_vsv)
@@ -152,9 +143,7 @@ def test_an_overload_names_its_instant(
 
 
 @pytest.mark.parametrize("told", EVERY)
-def test_more_than_all_of_the_area_is_no_share(
-    make_vsv: Callable[..., Vsv], told: Callable[..., list[str]]
-) -> None:
+def test_more_than_all_of_the_area_is_no_share(make_vsv, told):
     (below,) = told(make_vsv(), SOUND | {"area": 0.99}, statistics(SOUND))
     assert "reached 99 % of the nominal one" in below
     (beyond,) = told(make_vsv(), SOUND | {"area": 7.5}, statistics(SOUND))
@@ -180,9 +169,7 @@ def test_points_of_contact_are_told_of_and_have_no_depth(make_vsv: Callable[...,
 
 
 @pytest.mark.parametrize("told", EVERY)
-def test_a_clearance_that_rough_surfaces_fill_is_said(
-    make_vsv: Callable[..., Vsv], told: Callable[..., list[str]]
-) -> None:
+def test_a_clearance_that_rough_surfaces_fill_is_said(make_vsv, told):
     sigma = make_vsv().joint.roughness
     for share, expected in ((ROUGH_LIMIT + 1e-6, 0), (ROUGH_LIMIT - 1e-6, 1), (0.04, 1)):
         messages = told(make_vsv(clearance=share * sigma), SOUND, statistics(SOUND))
@@ -224,9 +211,7 @@ def test_a_short_lift_off_is_noted_in_per_cent_of_the_run(make_vsv: Callable[...
 
 
 @pytest.mark.parametrize("formulation", ["paper", "printed"])
-def test_every_run_of_the_paper_s_equations_notes_that_they_can_gain_energy(
-    make_vsv: Callable[..., Vsv], formulation: str
-) -> None:
+def test_every_run_of_the_paper_s_equations_notes_that_they_can_gain_energy(make_vsv, formulation):
     (message,) = notes(make_vsv(formulation))
     assert message.startswith(f"The equations of formulation '{formulation}' can gain energy in an impact")
     assert "compare with mechanism.formulation = 'exact'" in message
@@ -244,9 +229,7 @@ def test_every_run_of_the_paper_s_equations_notes_that_they_can_gain_energy(
         (3.0, False, 0),
     ],
 )
-def test_a_run_says_which_reversals_it_does_not_hold(
-    make_vsv: Callable[..., Vsv], t_end: float, carried: bool, held: int
-) -> None:
+def test_a_run_says_which_reversals_it_does_not_hold(make_vsv, t_end, carried, held):
     told = notes(make_vsv(), t_end=t_end, carried=carried)
     assert [message for message in told if f"holds {held} with" in message] == ([] if held == 2 else told)
     assert len(told) == (held < 2)

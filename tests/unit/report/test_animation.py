@@ -75,9 +75,7 @@ def test_a_film_shows_the_motion(result: xr.Dataset, tmp_path: Path) -> None:
         assert np.abs(np.asarray(film.convert("RGB"), dtype=float) - first).max() > 100.0
 
 
-def test_ffmpeg_gets_the_frames_of_a_film(
-    result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_ffmpeg_gets_the_frames_of_a_film(result, tmp_path, monkeypatch):
     program = tmp_path / "ffmpeg"
     program.write_text('#!/bin/sh\nfor last; do :; done\ncat > "$last"\n')
     program.chmod(0o755)
@@ -87,9 +85,7 @@ def test_ffmpeg_gets_the_frames_of_a_film(
     assert path.stat().st_size == 20 * frame
 
 
-def test_what_cannot_be_shown_is_refused(
-    result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_cannot_be_shown_is_refused(result, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     for name, seconds, words in (
         ("run.mp4", 2, "ffmpeg, which is not found"),

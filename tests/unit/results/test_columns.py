@@ -1,4 +1,4 @@
-"""Tables of a result for spreadsheets: columns by name, their units, and what is refused."""
+"""Columns of results for spreadsheets and fits, and parts of a result in a notebook."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from tests.unit.mechanism.made_up import result
 
 import tribodyn as td
+import tribodyn.accessor
 from tribodyn.cli.main import main
 from tribodyn.core.errors import InputError
 from tribodyn.results.columns import GROUPS, table
@@ -62,9 +64,7 @@ def test_an_angle_of_a_joint_comes_first_in_degrees(run: xr.Dataset) -> None:
         (["forces"], "joint_angle", "add a label"),
     ],
 )
-def test_what_is_not_there_is_refused(
-    names: list[str], over: str | None, reason: str, run: xr.Dataset
-) -> None:
+def test_what_is_not_there_is_refused(names, over, reason, run):
     with pytest.raises(InputError, match=reason):
         table(run, names, over=over)
 
@@ -74,9 +74,7 @@ def test_a_dataframe_has_a_row_for_each_time(run: xr.Dataset) -> None:
 
 
 @pytest.mark.parametrize(("decimal", "separator"), [("point", ","), ("comma", ";")])
-def test_a_file_opens_in_a_spreadsheet_and_in_a_fit(
-    decimal: str, separator: str, stored: Path, run: xr.Dataset
-) -> None:
+def test_a_file_opens_in_a_spreadsheet_and_in_a_fit(decimal, separator, stored, run):
     path = stored / "some.csv"
     arguments = ["export", str(stored), "--csv", "drive_moment.main", "--decimal", decimal, "-o", str(path)]
     assert main(arguments) == 0
@@ -93,3 +91,44 @@ def test_a_table_goes_nowhere_but_into_a_file(stored: Path, capsys: pytest.Captu
     assert main(["export", str(stored), "--csv", "forces", "-o", str(stored)]) == 2
     assert main(["export", str(stored), "--csv", ",", "-o", "x.csv"]) == 2
     assert "--csv" in capsys.readouterr().err
+
+
+RESULT = result()
+
+
+def test_a_joint_is_chosen_by_its_name_and_a_wrong_one_answered() -> None:
+    assert RESULT.tribodyn.sel(joint="wrist")["reaction_force"].dims == ("time", "axis")
+    with pytest.raises(
+        InputError, match=r'joint: given "wirst"; allowed: main, pin, wrist, guide; did you mean "wrist"'
+    ):
+        RESULT.tribodyn.sel(joint="wirst")
+    with pytest.raises(InputError, match="joints: no such dimension"):
+        RESULT.tribodyn.sel(joints="wrist")
+
+
+def test_a_result_is_read_at_even_times() -> None:
+    step = 5e-5
+    found = RESULT.tribodyn.resample(step)
+    np.testing.assert_allclose(np.diff(found["time"]), step)
+    expected = np.interp(found["time"], RESULT["time"], RESULT["joint_angle"].values[:, 0])
+    np.testing.assert_allclose(found["joint_angle"].values[:, 0], expected, atol=1e-12)
+    assert found.attrs["kind"] == "mechanism"
+    with pytest.raises(InputError, match=r"above 0 and at most 0\.012"):
+        RESULT.tribodyn.resample(0.0)
+
+
+def test_key_results_are_a_table() -> None:
+    numbers = RESULT.tribodyn.numbers
+    assert numbers.loc["force_max_N_wrist", "part"] == "wrist"
+    assert numbers.loc["force_max_N_wrist", "unit"] == "N"
+    assert numbers.loc["force_max_N_wrist", "value"] == RESULT.tribodyn.summary["force_max_N_wrist"]
+
+
+def test_a_chart_is_drawn_over_the_angle_of_a_joint() -> None:
+    figure = RESULT.tribodyn.plot.joint_forces(over="main")
+    assert figure.axes[-1].get_xlabel() == "angle of main [°]"
+    assert RESULT.tribodyn.plot().texts[0].get_text() == "Errors of the outputs"
+    with pytest.raises(InputError, match=r'over: given "mian"; allowed: a joint, .*did you mean "main"'):
+        RESULT.tribodyn.plot.joint_forces(over="mian")
+    with pytest.raises(InputError, match="orbits has no time axis"):
+        RESULT.tribodyn.plot.orbits(over="main")

@@ -1,7 +1,13 @@
+"""Variables of results: units and meanings, the list in the manual, pictures without times."""
+
+from pathlib import Path
+
 import pytest
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import VARIABLES
+from tribodyn.results.schema import check
+from tribodyn.results.summary import EFFORT
 from tribodyn.results.variables import OUTPUTS, OUTPUTS_OF_CYCLE
 
 KNOWN = {**VARIABLES, **MECHANISMS["vsv"].variables}
@@ -25,3 +31,32 @@ def test_no_mechanism_says_again_what_all_share_and_long_names_are_unique(mechan
     assert not {name for name in both if mechanism.variables[name] == VARIABLES[name]}
     names = [variable.long_name for variable in (VARIABLES | mechanism.variables).values()]
     assert len(set(names)) == len(names)
+
+
+PAGE = Path(__file__).parents[3] / "docs" / "guide" / "results.md"
+
+
+LISTS = [VARIABLES, EFFORT]
+for _mechanism in MECHANISMS.values():
+    LISTS += [_mechanism.variables, _mechanism.key_results, [f"{name}.png" for name in _mechanism.figures]]
+
+
+@pytest.mark.parametrize("names", LISTS)
+def test_the_manual_lists_everything_a_result_may_hold(names):
+    text = PAGE.read_text(encoding="utf-8")
+    assert [name for name in names if f"`{name}`" not in text] == []
+
+
+KINDS = {kind: mechanism.variables for kind, mechanism in MECHANISMS.items()}
+
+
+@pytest.mark.parametrize("pictures", ["snapshot", "frame"])
+def test_pictures_of_a_motion_without_times_are_refused(pictures, make_result):
+    whole = make_result(1.0)
+    check(whole, KINDS)
+    with pytest.raises(ValueError, match=f"values of {pictures}, but none of time"):
+        check(
+            whole.isel(time=slice(0, 0), **{"snapshot": slice(0, 0), "frame": slice(0, 0), pictures: [0]}),
+            KINDS,
+        )
+    check(whole.isel(time=slice(0, 0), snapshot=slice(0, 0), frame=slice(0, 0)), KINDS)

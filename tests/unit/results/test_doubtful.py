@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -30,9 +29,7 @@ def colour_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     ("missed", "doubtful"), [(0.0, False), (DOUBTFUL, False), (1.01 * DOUBTFUL, True), (float("nan"), True)]
 )
-def test_the_flag_is_set_beyond_five_percent(
-    make_result: Callable[..., xr.Dataset], missed: float, doubtful: bool, tmp_path: Path
-) -> None:
+def test_the_flag_is_set_beyond_five_percent(make_result, missed, doubtful, tmp_path):
     result = make_result().assign_attrs(energy_residual=missed)
     summary = summarise(result)
     assert bool(summary["doubtful"]) is doubtful
@@ -46,9 +43,7 @@ def test_the_flag_is_set_beyond_five_percent(
     assert ("Do not use these numbers: the energy balance misses" in page) is doubtful
 
 
-def test_a_terminal_shows_doubtful_numbers_grey(
-    make_result: Callable[..., xr.Dataset], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_terminal_shows_doubtful_numbers_grey(make_result, monkeypatch):
     colour_the_terminal(monkeypatch)
     summary = summarise(make_result().assign_attrs(energy_residual=0.06))
     first, *numbers = in_words(summary)
@@ -66,12 +61,7 @@ def test_a_notebook_shows_doubtful_numbers_grey(make_result: Callable[..., xr.Da
     assert "color:gray" not in Accessor(make_result())._repr_html_()
 
 
-def test_a_comparison_marks_the_run_whose_numbers_are_doubtful(
-    make_result: Callable[..., xr.Dataset],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_comparison_marks_the_run_whose_numbers_are_doubtful(make_result, tmp_path, monkeypatch, capsys):
     results = {name: make_result(energy_residual=missed) for name, missed in (("good", 0.0), ("bad", 0.06))}
     page = write_comparison(
         [ComparedRun(*one) for one in results.items()], tmp_path / "page.html"
@@ -93,9 +83,7 @@ def test_a_comparison_marks_the_run_whose_numbers_are_doubtful(
     assert tilt.endswith("\x1b[0m")
 
 
-def test_a_sweep_marks_the_points_whose_numbers_are_doubtful(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_sweep_marks_the_points_whose_numbers_are_doubtful(tmp_path, monkeypatch):
     colour_the_terminal(monkeypatch)
     plan = make_plan(load_case("vsv"), {"joint.clearance": "20,30 um"}, Sampling())
     found = {

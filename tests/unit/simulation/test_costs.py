@@ -159,9 +159,7 @@ def test_memory_and_time_of_other_runs_are_as_estimated() -> None:
         ),
     ],
 )
-def test_what_takes_too_much_is_said_with_value_limit_and_key(
-    name: str, changes: Changes, what: str, key: str
-) -> None:
+def test_what_takes_too_much_is_said_with_value_limit_and_key(name, changes, what, key):
     limit = {"memory": "2 GB", "processor time": "60 min"}[what]
     texts = [text for text in td.check(td.load_case(name, changes)) if "estimated" in text]
     assert any(f" of {what}, more than {limit}: change {key}" in text for text in texts), texts
@@ -172,9 +170,7 @@ def test_built_in_cases_take_little(name: str) -> None:
     assert estimate(name).warnings == ()
 
 
-def test_a_run_warns_before_it_starts(
-    tmp_path: object, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_run_warns_before_it_starts(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(str(tmp_path))
 
     def simulate(*_: object, **__: object) -> None:

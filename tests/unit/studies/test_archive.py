@@ -44,9 +44,7 @@ def test_key_results_are_lines_of_one_file_and_the_latest_counts(point: Point, t
 @pytest.mark.parametrize(
     "torn", ['{"point": "a", "summ', "[]", '{"point": 1, "summary": {}}', "\xff\x00", "[" * 9999]
 )
-def test_a_line_that_is_not_whole_is_left_out_and_gone_with_the_next(
-    torn: str, point: Point, tmp_path: Path
-) -> None:
+def test_a_line_that_is_not_whole_is_left_out_and_gone_with_the_next(torn, point, tmp_path):
     kept(tmp_path, point, 1.0)
     with (tmp_path / "points.jsonl").open("a", encoding="latin-1") as stream:
         stream.write(torn)

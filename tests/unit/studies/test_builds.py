@@ -67,9 +67,7 @@ def test_numbers_of_a_build_are_those_of_its_copies() -> None:
         ),
     ],
 )
-def test_what_cannot_be_drawn_is_refused(
-    change: tuple[str, str], copies: int, limits: dict[str, float], refusal: str
-) -> None:
+def test_what_cannot_be_drawn_is_refused(change, copies, limits, refusal):
     with pytest.raises(InputError, match=refusal):
         builds(
             parse_case((TEXT).replace(*change), "test"), copies=copies, draws=100, limits=limits, workers=0

@@ -254,9 +254,7 @@ def test_tampered_evaluations_are_refused(change: str, tmp_path: Path) -> None:
         _fit(data, tmp_path)
 
 
-def test_a_full_disk_leaves_no_evaluations_without_their_fit(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_leaves_no_evaluations_without_their_fit(tmp_path, monkeypatch):
     """An empty file would be taken for that of any fit, and the runs of another one for those of this one."""
     data = _read(_file(tmp_path, "swing"))
 

@@ -31,9 +31,7 @@ def test_forces_of_a_mechanism_without_loads_are_homogeneous_in_its_masses(tmp_p
         assert sum(one.relative for one in found if one.number == number) == pytest.approx(1.0, rel=1e-4)
 
 
-def test_a_key_without_effect_has_slope_zero_and_a_key_at_zero_needs_a_step(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_key_without_effect_has_slope_zero_and_a_key_at_zero_needs_a_step(tmp_path, capsys):
     asked = [
         "slopes",
         CASE,
@@ -53,9 +51,7 @@ def test_a_key_without_effect_has_slope_zero_and_a_key_at_zero_needs_a_step(
     assert "a slope needs a key with a number" in capsys.readouterr().err
 
 
-def test_a_number_that_jumps_has_no_slope(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_number_that_jumps_has_no_slope(monkeypatch, capsys):
     """The largest value of an impact may follow the tolerance more than the key."""
     monkeypatch.setattr(
         "tribodyn.studies.differences.numbers_of",

@@ -1,6 +1,5 @@
 """The search for a limit, around a simulation whose force is proportional to the clearance."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,9 +24,7 @@ def test_the_limit_is_found_where_it_is(simulated: list[Any]) -> None:
     assert len(simulated) < 30
 
 
-def test_a_limit_may_be_a_change_against_the_case_as_it_is(
-    simulated: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_limit_may_be_a_change_against_the_case_as_it_is(simulated, tmp_path, capsys):
     # The built-in case has 20 um, so 2000 N: a quarter less is 1500 N.
     found = td.studies.find("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=-25 %", within=0.001)
     assert found == pytest.approx(15e-6, abs=0.1e-6)
@@ -38,49 +35,11 @@ def test_a_limit_may_be_a_change_against_the_case_as_it_is(
         limit("contact_force_max_N=5 %", td.load_case("vsv"), "--limit", least=False)
 
 
-def test_a_second_search_goes_on_with_what_is_there(simulated: list[Any], tmp_path: Path) -> None:
-    asked = ("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=2250")
-    first = td.studies.find(*asked, directory=tmp_path)
-    count = len(simulated)
-    assert td.studies.find(*asked, directory=tmp_path) == first
-    assert len(simulated) == count
-    td.studies.find(*asked, directory=tmp_path, within=0.001)
-    assert len(simulated) > count
-
-
 def test_a_limit_outside_the_range_says_what_is_there(simulated: list[Any]) -> None:
     with pytest.raises(TribodynError, match="1000 at 10 um and 2900 at 29 um: it does not pass 5000"):
         td.studies.find("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=5000")
     with pytest.raises(TribodynError, match="a run of the search failed: steps became too small"):
         td.studies.find("vsv", "joint.clearance", "10..30 um", "contact_force_max_N=2000")
-
-
-def test_a_key_result_that_no_run_gives_is_named(
-    simulated: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(TribodynError, match="no run has error_max_um_vane"):
-        td.studies.find("vsv", "joint.clearance", "10..29 um", "error_max_um_vane=1000")
-    sweep = ["sweep", "vsv", "--vary", "joint.clearance=10,20 um", "--summary-only", "--workers", "0"]
-    for option in ("--limit=error_max_um_vane=1000", "--show=error_max_um_vane"):
-        assert main([*sweep, option, "-o", str(tmp_path / option[2:6])]) == 1
-        assert "no run has error_max_um_vane" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("path", "between", "until", "hint"),
-    [
-        ("joint.clearence", "10..60 um", "tilt_max_mrad=1", "joint.clearance"),
-        ("joint.clearance", "10:60 um", "tilt_max_mrad=1", "10..60 um"),
-        ("joint.clearance", "60..10 um", "tilt_max_mrad=1", "upwards"),
-        ("joint.clearance", "10..60 kg", "tilt_max_mrad=1", "length"),
-        ("contact.law", "ke..rsdc", "tilt_max_mrad=1", "a range"),
-        ("joint.clearance", "10..60 um", "tilt_max_mrad", "NAME=NUMBER"),
-        ("joint.clearance", "10..60 um", "tilt_max_rad=1", "nearest of .*: tilt_max_mrad"),
-    ],
-)
-def test_wrong_questions_are_refused(path: str, between: str, until: str, hint: str) -> None:
-    with pytest.raises(InputError, match=hint):
-        td.studies.find("vsv", path, between, until)
 
 
 def test_a_component_of_a_vector_is_asked_for_by_its_name() -> None:
@@ -107,9 +66,7 @@ def test_the_one_taken_of_several_numbers_is_named() -> None:
     assert limit("error_max_um_slider=30", crank, "--until").others == ()
 
 
-def test_the_command_prints_the_answer(
-    simulated: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_prints_the_answer(simulated, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main([*FIND, "contact_max_N=2250"]) == 0  # a part of the name will do
     out, err = capsys.readouterr()
@@ -159,9 +116,7 @@ def test_indices_are_those_of_known_functions(number: Any, first: Any, total: An
         assert index.total_error < 0.1
 
 
-def test_a_sweep_for_sensitivities(
-    simulated: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_sweep_for_sensitivities(simulated, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     two = ["--vary", "joint.clearance=uniform(10 um, 29 um)", "--vary", "joint.radius=uniform(5 mm, 6 mm)"]
     pictures = ["--no-figures", "--no-report", "--workers", "0"]

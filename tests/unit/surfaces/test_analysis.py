@@ -46,9 +46,7 @@ def test_swapped_axes_swap_directions_and_nothing_else(name: str, rough: Callabl
     assert one == pytest.approx(other, rel=1e-9)
 
 
-def test_a_mirrored_or_turned_over_map_keeps_its_numbers(
-    surface: MeasuredSurface, rough: Callable[..., Scan]
-) -> None:
+def test_a_mirrored_or_turned_over_map_keeps_its_numbers(surface, rough):
     expected = numbers(surface)
     for heights in (rough().heights[::-1], rough().heights[:, ::-1]):
         found = numbers(analyse(rough().with_heights(heights), TREATMENT))
@@ -119,9 +117,7 @@ def test_other_cut_offs(surface: MeasuredSurface, rough: Callable[..., Scan]) ->
         ({"filter": "gauss"}, "filter"),
     ],
 )
-def test_impossible_treatments_are_refused(
-    treatment: dict[str, float], key: str, rough: Callable[..., Scan]
-) -> None:
+def test_impossible_treatments_are_refused(treatment, key, rough):
     with pytest.raises(InputError) as caught:
         analyse(rough(), Treatment(**treatment))
     assert caught.value.key == key
@@ -134,9 +130,7 @@ def test_plasticity_index_is_that_of_greenwood_and_williamson(surface: MeasuredS
 
 
 @pytest.mark.parametrize("shape", [(400,), (401,), (128, 96)])
-def test_the_integral_of_a_spectrum_is_the_variance(
-    shape: tuple[int, ...], rough: Callable[..., Scan]
-) -> None:
+def test_the_integral_of_a_spectrum_is_the_variance(shape, rough):
     scan = rough(*shape)
     for name, spectrum in spectra(scan).items():
         variance = np.sum(spectrum.density) * spectrum.frequency[0]

@@ -75,9 +75,7 @@ FORMATS = {
 
 
 @pytest.mark.parametrize("ending", FORMATS)
-def test_every_format_gives_the_same_numbers(
-    ending: str, scan: Scan, topography: Any, tmp_path: Path
-) -> None:
+def test_every_format_gives_the_same_numbers(ending, scan, topography, tmp_path):
     path = tmp_path / f"scan.{ending}"
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -1,6 +1,5 @@
 """Our own text format: what is written reads back, and what a person writes is understood."""
 
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -21,9 +20,7 @@ def read(tmp_path: Path, text: str, given: Scale | None = None) -> Scan:
 
 
 @pytest.mark.parametrize("shape", [(64,), (40, 50)])
-def test_what_is_written_reads_back_to_the_bit(
-    shape: tuple[int, ...], rough: Callable[..., Scan], tmp_path: Path
-) -> None:
+def test_what_is_written_reads_back_to_the_bit(shape, rough, tmp_path):
     scan = rough(*shape)
     heights = scan.heights.copy()
     heights.flat[7] = np.nan

@@ -109,9 +109,7 @@ def test_data_under_another_licence_lie_outside_the_package_with_licence_and_nam
     assert "data" not in targets["build"]["targets"]["sdist"]["include"]
 
 
-def test_without_these_data_validate_says_so_and_goes_on(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_without_these_data_validate_says_so_and_goes_on(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(catalogue, "OUTSIDE", tmp_path / "none")
     assert main(["validate", "rack_pinion_friction", "cycloid_reducer_play"]) == 0
     out = capsys.readouterr().out

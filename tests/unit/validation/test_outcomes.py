@@ -10,6 +10,9 @@ from tribodyn.validation.catalogue import NAMES, load
 from tribodyn.validation.report import Judged, as_json, as_page, as_text, by_kind, sets_table, summary
 
 LEAST_JUDGED = 40
+#: Sets of many runs: these tests are long, and ``make check`` runs them.
+SLOW = ("friction_damper_backlash", "cycloid_reducer_play")
+SETS = [pytest.param(name, marks=pytest.mark.long) if name in SLOW else name for name in NAMES]
 
 
 @cache
@@ -18,7 +21,7 @@ def _judged(name: str) -> Judged:
     return Judged(one, one.run())
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SETS)
 def test_every_miss_and_every_large_e_is_explained_and_nothing_else(name: str) -> None:
     judged = _judged(name)
     needed = {
@@ -42,6 +45,7 @@ def test_assumed_inputs_of_the_bearing_only_lower_its_peak() -> None:
         assert f"−{below:.2g} +{above:.2g}" in as_text(_judged("journal_peak_pressure"))
 
 
+@pytest.mark.long
 def test_numbers_are_counted_by_kind_and_by_what_the_null_model_does() -> None:
     judged = [_judged(name) for name in NAMES]
     counts = by_kind(judged)
@@ -59,14 +63,14 @@ def test_numbers_are_counted_by_kind_and_by_what_the_null_model_does() -> None:
     assert f"| {total} |" not in "\n".join(sets_table(judged))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SETS)
 def test_every_band_is_used(name: str) -> None:
     judged = _judged(name)
     used = {row.band.name for row in judged.outcome.comparisons if row.band is not None}
     assert used == set(judged.set.bands)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SETS)
 def test_names_of_numbers_are_unique_and_shown(name: str) -> None:
     judged = _judged(name)
     names = [row.name for row in judged.outcome.comparisons]
@@ -78,6 +82,7 @@ def test_names_of_numbers_are_unique_and_shown(name: str) -> None:
     assert len(json.loads(json.dumps(as_json(judged), allow_nan=False))["numbers"]) == len(names)
 
 
+@pytest.mark.long
 def test_enough_numbers_are_judged() -> None:
     judged = [row for name in NAMES for row in _judged(name).outcome.comparisons]
     assert sum(row.verdict is not Verdict.REPORTED for row in judged) >= LEAST_JUDGED
@@ -87,7 +92,7 @@ def test_enough_numbers_are_judged() -> None:
 WITHOUT_NULL = ("servo_friction_models", "dry_liners", "vsv_practice")
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name not in WITHOUT_NULL])
+@pytest.mark.parametrize("name", [name for name in SETS if name not in WITHOUT_NULL])
 def test_a_null_model_stands_beside_every_number(name: str) -> None:
     assert all(row.null is not None for row in _judged(name).outcome.comparisons)
 

@@ -49,6 +49,7 @@ def test_first_entries_are_as_they_were_entered() -> None:
     assert sum(entry["date"] == ENTERED for entry in register()) == first.count("[[prediction]]")
 
 
+@pytest.mark.long
 def test_newest_entries_follow_from_their_inputs_and_say_what_refutes_them() -> None:
     """An entry that was changed afterwards, or inputs that were, are found here."""
     newest = {entry["name"]: entry for entry in register() if entry["date"] == NEWEST}

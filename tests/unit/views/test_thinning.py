@@ -1,9 +1,13 @@
+"""Fewer points of a curve, and more times of a motion: no peak is lost, no line is far off."""
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tribodyn.core.splines import Cubics
 from tribodyn.views.charts import straightened, thinned
+from tribodyn.views.playback import dense_times
 
 
 @given(
@@ -42,3 +46,30 @@ def test_lines_replace_points_within_the_tolerance(y: list[float], tolerance: fl
     assert np.isnan(few_y).sum() == (~good).sum()
     # Rounding of a line between two points of size 1.
     assert np.all(np.abs(np.interp(x, few_x, few_y) - values)[good] <= tolerance + 1e-15)
+
+
+FALL = np.array([0.0, -9.81])
+TIME = np.array([0.0, 0.01, 0.03, 0.04])
+START = np.array([0.2, 0.1])
+
+
+def flight(t: np.ndarray) -> np.ndarray:
+    return START * t[:, None] + 0.5 * FALL * t[:, None] ** 2
+
+
+def test_a_free_flight_is_the_parabola_that_it_is() -> None:
+    times = np.linspace(0.0, 0.04, 41)
+    rates = START + FALL * TIME[:, None]
+    # Rounding.
+    np.testing.assert_allclose(Cubics(TIME, flight(TIME), rates)(times), flight(times), atol=1e-15)
+
+
+def test_lines_between_dense_times_miss_no_more_than_asked_for() -> None:
+    rates, room = START + FALL * TIME[:, None], 2e-5
+    times = dense_times(TIME, flight(TIME), rates, room)
+    assert set(TIME) <= set(times)
+    middle = 0.5 * (times[1:] + times[:-1])
+    lines = 0.5 * (flight(times)[1:] + flight(times)[:-1])
+    assert np.linalg.norm(lines - flight(middle), axis=1).max() <= room
+    # Not more than needed: the longest row needs √(g h²/8/room) = 5 pieces.
+    assert times.size <= 3 * 5 + 1

@@ -1,10 +1,18 @@
-"""The run of the vane mechanism: what its result holds, and a drive that would go too far if it went on."""
+"""The reduced mechanism: equilibria, reach, runs and running-in."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import tribodyn as td
+from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
+from tribodyn.papers.cheng_2022.reduced.problem import initial_state, vsv_data, vsv_memory
+from tribodyn.papers.cheng_2022.reduced.reach import check_reach, closure, ideal_vane_angle, reachable
+from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 
 def test_a_valid_short_run_of_a_drive_that_would_go_out_of_reach_runs() -> None:
@@ -73,3 +81,103 @@ def test_the_largest_rows_are_the_peaks(result: xr.Dataset) -> None:
     assert 0.98 * peak < force[result["time"].values > np.pi].max() <= peak
     assert result["contact_force_impact_time"].values[1] - np.pi < result.attrs["impact_time"]
     assert result["contact_force_outside"].values[0] < 0.5 * peak
+
+
+@pytest.mark.parametrize("clearance", [5, 20, 100, 190, 500])
+@pytest.mark.parametrize("friction", ["traction", "moment"])
+def test_every_clearance_has_an_equilibrium(clearance, friction):
+    case = load_case("vsv").replace({"joint.clearance": f"{clearance} um", "joint.friction": friction})
+    vsv = vsv_of(case)
+    data = vsv_data(vsv, duration=1.0)
+    attitude = initial_state(data, vsv_memory(data), "equilibrium")
+    # Some point of the axis lies within three σ of the wall, and none beyond it by more than that.
+    ends = [
+        np.hypot(attitude[0] - z * np.tan(attitude[3]), attitude[1] - z * np.tan(attitude[2]))
+        for z in (-data.mechanism.half_length, data.mechanism.half_length)
+    ]
+    assert max(ends) == pytest.approx(data.joint.clearance, abs=3.0 * data.joint.roughness)
+
+
+QUICK = {
+    "run.cycles": 1.0,
+    "run.output_interval": "50 ms",
+    "run.impact_window": "0 s",
+    "wear.specific_wear_rate": "1.1e-12 m^2/N",
+    "wear.cycles": 60,
+    "wear.jump_limit": 0.5,
+    "solver.grid.theta": 48,
+    "solver.grid.z": 8,
+}
+
+
+def campaign(**changes: object) -> xr.Dataset:
+    return td.simulate(td.load_case("vsv").replace({**QUICK, **changes}))
+
+
+def test_the_bushing_runs_in_to_the_roughness_of_its_trunnion() -> None:
+    worn = campaign(**{"wear.running_in": True})
+    assert not worn.attrs["failure"]
+    sigma = worn["wear_roughness"].values
+    trunnion, bushing = 0.392e-6, 1.586e-6
+    assert sigma[0] == pytest.approx(np.hypot(trunnion, bushing), rel=1e-12)
+    assert np.all(np.diff(sigma) <= 0.0)
+    assert sigma[-1] < 0.9 * sigma[0]
+    assert sigma[-1] >= np.hypot(trunnion, trunnion) * (1.0 - 1e-12)
+    # The smoother joint carries the same load, closer.
+    force = worn["wear_force_mean"].values
+    assert force[-1] == pytest.approx(force[0], rel=0.05)
+    assert worn.attrs["clearance_energy_residual"] < 0.01
+
+
+def test_both_wear_in_proportion() -> None:
+    both = campaign(**{"wear.specific_wear_rate": "0.8e-12 m^2/N", "wear.partner_wear_rate": "0.3e-12 m^2/N"})
+    one = campaign()
+    np.testing.assert_allclose(both["wear_depth"], one["wear_depth"], rtol=1e-9)
+    assert "27.3 % are worn off the partner" in str(both.attrs["notes"])
+    assert "partner" not in str(one.attrs["notes"])
+    np.testing.assert_array_equal(one["wear_roughness"], one["wear_roughness"][0])
+
+
+def test_a_smooth_trunnion_leaves_nothing_to_run_in_to() -> None:
+    with pytest.raises(InputError, match="say what the bushing runs in to"):
+        td.load_case("vsv").replace({"surfaces.trunnion.roughness": "0 um", "wear.running_in": True})
+
+
+SEEDS = range(24)
+
+
+def varied(lengths: Lengths, seed: int) -> Lengths:
+    """Return a mechanism with lengths 20 % and angles 15° off at most."""
+    chance = np.random.default_rng(seed)
+    names = ("l_1", "l_2", "l_3", "l_4", "l_m")
+    changes = {name: getattr(lengths, name) * chance.uniform(0.8, 1.2) for name in names}
+    turned = {name: getattr(lengths, name) + chance.uniform(-0.26, 0.26) for name in ("gamma", "phi")}
+    return replace(lengths, **changes, **turned)
+
+
+def test_most_of_these_mechanisms_can_be_assembled(make_vsv):
+    reaches = [reachable(varied(make_vsv().lengths, seed), 0.0, 0.0) for seed in SEEDS]
+    assert sum(reach is not None for reach in reaches) > len(SEEDS) / 2
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_vane_angle_follows_the_crank_without_a_jump(make_vsv, seed):
+    lengths = varied(make_vsv().lengths, seed)
+    reach = reachable(lengths, 0.0, 0.0)
+    if reach is None:
+        return
+    theta_a = np.linspace(*reach, 1001)
+    theta_v = np.unwrap(ideal_vane_angle(lengths, theta_a))
+    # Where the assemblies merge θ_v changes like a square root, by 0.1 rad here. A jump has 1 or more.
+    assert np.abs(np.diff(theta_v)).max(initial=0.0) < 0.3
+    np.testing.assert_allclose(closure(lengths, theta_a, theta_v), 0.0, atol=1e-15)
+
+
+def test_the_other_assembly_passing_straight_down_changes_nothing(make_vsv):
+    # Of this mechanism the smaller vane angle falls through −90° while the larger one is at 150°.
+    lengths = replace(make_vsv().lengths, l_1=0.0491, l_2=0.1441, l_3=0.4196, l_4=0.0486, l_m=0.483)
+    crank = np.radians(np.linspace(-10.0, 15.4, 200))
+    check_reach(lengths, crank[0], crank[-1])
+    vane = np.degrees(ideal_vane_angle(lengths, crank))
+    assert 2.0 > np.diff(vane).max() > np.diff(vane).min() > 0.0
+    assert vane[-1] == pytest.approx(159.9, abs=0.05)
