@@ -19,12 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.vsv_case import RTOL, problem_of, ranges, vsv_case
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import entry
-from tribodyn.kernels.joints.collar import Collar
+from tribodyn.kernels.jit import entry, new_record
+from tribodyn.kernels.joints.bushing import Collar
 from tribodyn.kernels.mebdf.drive import AFTER_STEP
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 

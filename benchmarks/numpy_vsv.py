@@ -18,8 +18,7 @@ from benchmarks.numpy_joint import arrays_of, numpy_update, numpy_wrench
 from benchmarks.vsv_case import constants
 from tribodyn.core.problem import Problem
 from tribodyn.joints import BushingJoint
-from tribodyn.kernels.vsv.data import VsvData
-from tribodyn.kernels.vsv.layout import O2_X, O3_Z, OV_X, OV_Y, PHI_X, PHI_Y, THETA_B, THETA_V
+from tribodyn.kernels.vsv.data import O2_X, O3_Z, OV_X, OV_Y, PHI_X, PHI_Y, THETA_B, THETA_V, VsvData
 
 FloatArray = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.bushing import BushingData, wrench, wrench_and_jacobian

@@ -28,8 +28,8 @@ from tests.faults.random_mechanisms import flat_loop
 
 import tribodyn as td
 from benchmarks.random_machines import quantiles
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import TribodynError
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.results.reading import column

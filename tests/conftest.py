@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from mebdf import solver
+from mebdf.arrays import FloatArray
 from mebdf.kernels import state
 from tribodyn.contact import SurfacePair, law, tabulate
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.integrate import integrate
 from tribodyn.integrate.driver import IntegrationTask, Stepwise

@@ -6,7 +6,7 @@ from typing import Final
 
 from tables.markdown import Lines, Table, head, row
 from tribodyn.papers.cheng_2022.claims import CLAIMS, as_markdown, kept_rows, summary
-from tribodyn.papers.cheng_2022.claims.bounds import VERDICTS
+from tribodyn.papers.cheng_2022.claims.base import VERDICTS
 
 
 def counts() -> Lines:

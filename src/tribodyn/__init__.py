@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tribodyn import contact, integrate, studies
     from tribodyn.cases.materials import MATERIALS as materials
-    from tribodyn.mechanism.analyses.stribeck import stribeck
+    from tribodyn.mechanism.analyses.shaft_in_bore import stribeck
     from tribodyn.mechanism.builder.mechanism_builder import Mechanism
     from tribodyn.mechanisms.catalogue import load_case
     from tribodyn.mechanisms.results import read
@@ -40,7 +40,7 @@ _HOME = {
     "materials": "tribodyn.cases.materials:MATERIALS",
     "read": "tribodyn.mechanisms.results:read",
     "simulate": "tribodyn.simulation:simulate",
-    "stribeck": "tribodyn.mechanism.analyses.stribeck:stribeck",
+    "stribeck": "tribodyn.mechanism.analyses.shaft_in_bore:stribeck",
 }
 _GIVING_RESULTS = ("read", "simulate")
 

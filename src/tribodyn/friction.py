@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 
 __all__ = ["FrictionLimit", "stribeck_share"]
 

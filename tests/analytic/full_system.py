@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from tribodyn.core.quantities import names
-from tribodyn.kernels.vsv import layout as at
+from tribodyn.kernels.vsv import data as at
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, AIR_Z, BEND_X, BEND_Y
 from tribodyn.kernels.vsv.quantities import OBSERVED, REACTIONS
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import law
 from tribodyn.contact.bounce import undamped_depth
-from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, assemble, contact_table, pose_at
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.joint import report, update_entry_velocity, wrench

@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import RSDC, SurfacePair
-from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, assemble, pose_at
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.joint import pressure_field, wrench, wrench_and_jacobian

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import SurfacePair, law
 from tribodyn.contact.bulk import Bulk
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.joints.bushing import new_memory as bushing_memory

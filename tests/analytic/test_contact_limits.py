@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.special import erfc, gamma, pbdv
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import LAWS, RSDC, KogutEtsion, SurfacePair, law
 from tribodyn.contact.asperities import AsperityLaw
 from tribodyn.contact.greenwood_tripp import GreenwoodTripp
-from tribodyn.core.arrays import FloatArray
 
 H_STAR = np.linspace(-4.0, 8.0, 25)
 

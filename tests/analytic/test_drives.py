@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
 INERTIA = 1e-2

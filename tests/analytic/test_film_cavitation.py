@@ -6,7 +6,7 @@ from scipy.integrate import quad
 from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import spsolve
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.data import FilmMemory
 from tribodyn.kernels.film.report import pressure_unit
 from tribodyn.lubrication import Film, FilmGrid, Roughness, film_state

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.lubrication import Film, FilmGrid, film_equilibrium, film_state
 
 VISCOSITY, CLEARANCE, RADIUS, OMEGA = 0.01, 10e-6, 5e-3, 100.0

@@ -12,11 +12,11 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints.bushing import joint_wrench
 from tribodyn.joints.clearances import pose_at
-from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.film.wrench import film_wrench
+from tribodyn.kernels.jit import new_record
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import Scratch
 from tribodyn.kernels.mechanism.data import REPORTS, SLOPES, CouplingNow

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.data import CONVERGED
 from tribodyn.kernels.film.wrench import film_wrench, film_wrench_and_jacobian
 from tribodyn.lubrication import Film, FilmGrid, Roughness

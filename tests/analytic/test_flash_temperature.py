@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.contact.flash_temperature import Conductor, resistance
+from tribodyn.contact.surface_pair import Conductor, resistance
 
 BODY = Conductor(conductivity=45.0, diffusivity=12e-6)
 RADIUS = 5e-6

@@ -12,7 +12,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.signals import spline
 from tribodyn.joints import Form, Grid
 from tribodyn.joints.bushing import joint_wrench
-from tribodyn.joints.form import Bore
+from tribodyn.joints.rows import Bore
 from tribodyn.mechanisms.bushing import bushing_of
 from tribodyn.mechanisms.catalogue import parse_case
 

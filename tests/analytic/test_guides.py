@@ -11,7 +11,7 @@ import xarray as xr
 from scipy.spatial.transform import Rotation
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.results.guides import SITUATIONS
 from tribodyn.mechanisms.results import summarise

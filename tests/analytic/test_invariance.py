@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.journals import BORE, journal, loads
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import write_run
 from tribodyn.simulation import simulate

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from tests.journals import BORE, journal, loads
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
 from tribodyn.joints.bushing import joint_jacobian, joint_wrench

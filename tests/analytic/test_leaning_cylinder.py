@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, assemble, places, pose_at
 from tribodyn.kernels.film.data import CONVERGED, OUT_OF_RANGE
 from tribodyn.kernels.film.wrench import film_wrench

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem

@@ -9,7 +9,7 @@ from tests.analytic.full_system import AGREE, assert_solved
 
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.equations import drive_moment
-from tribodyn.kernels.vsv.observe import observe
+from tribodyn.kernels.vsv.functions import observe
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.jit import new_record
 from tribodyn.kernels.joints.surface.memory import NORMAL
 from tribodyn.kernels.mechanism.data import Law
 from tribodyn.mechanism.assembly.assembly import assemble

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.clearances import Clearance, assemble, pose_at
 from tribodyn.kernels.joints.surface.data import AREA, NORMAL, POSITION, SurfaceData

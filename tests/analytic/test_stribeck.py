@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film, FilmGrid, Roughness
-from tribodyn.mechanism.analyses.shaft_in_bore import Journal, equilibrium
-from tribodyn.mechanism.analyses.stribeck import equilibria
+from tribodyn.mechanism.analyses.shaft_in_bore import Journal, equilibria, equilibrium
 
 FRICTION = 0.1
 SPEEDS = np.geomspace(0.1, 3e4, 45)

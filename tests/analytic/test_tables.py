@@ -14,12 +14,12 @@ from tribodyn.cases.case import with_entries
 from tribodyn.core.signals import constant, sinusoid, spline
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, AIR_Z, BEND_X, BEND_Y, TIME, VANE
-from tribodyn.kernels.vsv.observe import observe
+from tribodyn.kernels.vsv.functions import observe
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.shaft_loads import Term
+from tribodyn.papers.cheng_2022.reduced.drives import ideal_motion, run_segments
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
-from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_segments
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 SAME = 1e-12  #: A constant, and a spline through equal values: rounding.

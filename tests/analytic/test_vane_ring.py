@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanism.sections.charts import joint_forces
 from tribodyn.mechanism.sections.copies import COPIES, around

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
+from tribodyn.cli.options import OutputDirectory
 from tribodyn.papers.cheng_2022.figures import FIGURES
 from tribodyn.surfaces import SelfAffine, generate, write_text
 

@@ -76,7 +76,7 @@ class Watch:
 @pytest.fixture(scope="module")
 def watch() -> Watch:
     # Units that few cases are written in are read from their file once, when the first is asked for.
-    importlib.import_module("tribodyn.cases.other_units")
+    importlib.import_module("tribodyn.cases.known_units")
     return Watch()
 
 

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
+from tribodyn.cli.options import OutputDirectory
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import read, summarise
 

@@ -15,8 +15,8 @@ import xarray as xr
 import mebdf
 import tribodyn
 from tribodyn import report
-from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.main import main
+from tribodyn.cli.options import OutputDirectory
 from tribodyn.core.errors import InputError
 from tribodyn.figures.style import sheet
 from tribodyn.mechanisms.catalogue import load_case

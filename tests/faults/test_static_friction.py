@@ -9,7 +9,7 @@ import pytest
 
 import tribodyn as td
 from benchmarks.static_machines import SAME, STATIC, loop, swinging
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.assembly.equilibrium import JointLoads
 from tribodyn.results.reading import column
 

@@ -15,9 +15,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import SurfacePair, law, tabulate
 from tribodyn.contact.bulk import Bulk
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.joints.clearances import Clearance, assemble, pose_at
 from tribodyn.kernels.joints.surface.joint import pressure_field, report

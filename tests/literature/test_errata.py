@@ -10,7 +10,7 @@ from scipy.integrate import simpson
 
 from tribodyn.contact import RSDC, law, tabulate
 from tribodyn.kernels.vsv import functions
-from tribodyn.kernels.vsv.layout import E_X, PHI_Y
+from tribodyn.kernels.vsv.data import E_X, PHI_Y
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
 

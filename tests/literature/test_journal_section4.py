@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.analyses.shaft_in_bore import equilibrium, journal_of
 
 FINAL = (14.563e-6, 7.281e-6)  #: Where statics put the centre [m] (model, 9).

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.vsv.layout import THETA_V, VALUE, VELOCITY
+from tribodyn.kernels.vsv.data import THETA_V, VALUE, VELOCITY
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 from tribodyn.papers.cheng_2022.reduced.reach import check_reach, ideal_vane_angle

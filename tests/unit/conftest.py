@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 import tribodyn.simulation
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results import build

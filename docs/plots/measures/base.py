@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.results import summarise
 from tribodyn.papers.cheng_2022.runs import Runs
 

@@ -13,7 +13,7 @@ from measures.base import Numbers, vsv
 from tribodyn.contact import Liner, law, tabulate
 from tribodyn.contact.bounce import Bounce, bounce
 from tribodyn.contact.contact_law import ContactLaw, asperity_integral
-from tribodyn.contact.kogut_etsion import KogutEtsion
+from tribodyn.contact.elastic_plastic import KogutEtsion
 from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.papers.cheng_2022.runs import Runs
 from tribodyn.simulation.bounce import BounceRow, bounces

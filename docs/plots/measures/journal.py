@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import tribodyn as td
 from measures.base import Numbers, keys
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.analyses.shaft_in_bore import equilibrium, journal_of
 from tribodyn.papers.cheng_2022.journal import run_of
 from tribodyn.papers.cheng_2022.runs import Runs

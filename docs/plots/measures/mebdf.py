@@ -9,7 +9,7 @@ from measures.base import Numbers
 from mebdf.consistent import UNCHANGED
 from mebdf.index import FREQUENCIES
 from mebdf.jacobian import LARGEST_IN_CORE
-from mebdf.kernels import acceptance, control, core, matrix, state, turning
+from mebdf.kernels import acceptance, control, core, matrix, state
 from mebdf.kernels.state import Settings
 from tribodyn.papers.cheng_2022.runs import Runs
 
@@ -43,7 +43,7 @@ CONSTANTS: Final[dict[str, float]] = {
     "step after a refuted Jacobian": Settings.failed_newton,
     "most cautious steps": control.MOST_CAUTION,
     "failures before a look back": control.TROUBLE / control.VAIN,
-    "narrow": turning.NARROW,
+    "narrow": acceptance.NARROW,
     "most failures": core.MOST_VAIN,
     "most calls": core.MOST_CALLS,
     "least progress": core.LEAST_PROGRESS,

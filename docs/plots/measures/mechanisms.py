@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from measures.base import Numbers, force, key_result, span, spread
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.papers.cheng_2022.runs import Runs, is_smooth
 
 NEAR: Final = 10.0 ** np.linspace(-0.1, 0.1, 7)  #: Factors on a tolerance, within 1.6 of each other.

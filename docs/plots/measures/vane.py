@@ -9,7 +9,7 @@ import numpy as np
 
 import tribodyn as td
 from measures.base import PEAK, SOLVERS, Numbers, force, key_result, spread, vsv
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.bushing import grid_of
 from tribodyn.papers.cheng_2022.claims.base import Trial
 from tribodyn.papers.cheng_2022.claims.damping import MOMENTS, under_moment

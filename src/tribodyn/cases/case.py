@@ -24,8 +24,7 @@ from pydantic_core import PydanticCustomError
 
 from tribodyn.cases import scans
 from tribodyn.cases.columns import with_tables_read
-from tribodyn.cases.entry import Entry, read_entry
-from tribodyn.cases.fields import Vector, quantity, tables, text
+from tribodyn.cases.fields import Entry, Vector, quantity, read_entry, tables, text
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, Remarks, located, problems, unknown
 from tribodyn.cases.parameters import read_all, scope_of, unused_parameters

@@ -24,7 +24,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Final
 
-from tribodyn.cases.entry import Entry, read_entry
+from tribodyn.cases.fields import Entry, read_entry
 from tribodyn.cases.keys import Key, ValueProblem, shown
 from tribodyn.cases.units import UnitProblem, dimension, si_unit, to_si
 from tribodyn.core.errors import InputError

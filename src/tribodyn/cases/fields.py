@@ -1,14 +1,19 @@
-"""Declaring the keys of a case file: default, meaning, source, bounds.
+"""Declaration of the keys of a case file, and a value of one as a user wrote it.
 
 The helpers below make pydantic fields; :func:`tribodyn.cases.keys.keys_of` collects what they record.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TypeAlias, TypedDict, Unpack
 
 from pydantic import Field
 
+from tribodyn.cases.keys import Key, Value, ValueProblem, shown
 from tribodyn.cases.units import elements, to_si, unit_of
+from tribodyn.core.errors import InputError
+from tribodyn.core.quoting import meant
 
 Bound: TypeAlias = str | float | None
 Vector: TypeAlias = tuple[float, float, float]
@@ -181,3 +186,30 @@ def tables(description: str, default: Callable[[], dict[str, Any]] = dict) -> An
     ``description``: what they are; ``default``: returns those that there are by default.
     """
     return Field(default_factory=default, description=description)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value as the user wrote it."""
+
+    value: object  #: As parsed from TOML or given in Python.
+    source: str  #: File or option that holds it.
+    text: bool = False  #: Whether numbers and switches may be spelled as text.
+    folder: Path | None = None  #: Where the names of files begin; None is the current directory.
+    built_in: bool = False  #: Whether a built-in case gives it, and no user.
+    origin: str = ""  #: Where a value of a built-in case comes from, if it says so.
+
+
+def read_entry(key: Key, entry: Entry) -> Value:
+    """Return the value of a key, or raise an error that says what it may hold."""
+    try:
+        return key.read(entry.value, text=entry.text)
+    except ValueProblem as problem:
+        raise InputError(refused(key, entry, str(problem)), key=key.path, source=entry.source) from None
+
+
+def refused(key: Key, entry: Entry, why: str = "") -> str:
+    """Report the value, the reason of its refusal, and the allowed values."""
+    reason = f": {why}" if why else ""
+    hint = meant(entry.value, key.choices) if isinstance(entry.value, str) else ""
+    return f"given {shown(entry.value)}{reason}; allowed: {key.allowed}{hint}"

@@ -81,7 +81,7 @@ class FormKeys(Group):
 
     def form(self) -> Form:
         """Return the form of the joint."""
-        from tribodyn.joints.form import Bore, Form
+        from tribodyn.joints.rows import Bore, Form
 
         bore = self.bushing
         return Form(

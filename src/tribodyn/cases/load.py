@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from tribodyn.cases.case import Case, beside, build
-from tribodyn.cases.entry import Entry
+from tribodyn.cases.fields import Entry
 from tribodyn.cases.keys import shown
 from tribodyn.cases.tables import is_name
 from tribodyn.core import files

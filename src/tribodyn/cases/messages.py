@@ -10,7 +10,7 @@ from typing import Final
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from tribodyn.cases.entry import Entry, refused
+from tribodyn.cases.fields import Entry, refused
 from tribodyn.cases.keys import ANY_NAME, VALUE, Key, shown
 from tribodyn.cases.tables import ALLOWED_NAME, as_declared, impossible_name, plain_path
 from tribodyn.core.errors import MOST_HINTS, InputError

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 from typing import Final
 
 from tribodyn.cases.dimensions import Dimensioned, ExpressionProblem, described, dimensions_of, fits, unit_for
-from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.expressions import CONSTANTS, FUNCTIONS, evaluate, is_unit, names_in
+from tribodyn.cases.fields import Entry, read_entry
 from tribodyn.cases.keys import Key, Value, shown
 from tribodyn.cases.known_units import EVERYDAY
 from tribodyn.cases.units import (

@@ -14,8 +14,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cases.entry import Entry, read_entry
 from tribodyn.cases.expressions import is_unit
+from tribodyn.cases.fields import Entry, read_entry
 from tribodyn.cases.keys import Key, shown, toml_string
 from tribodyn.cases.units import from_si, to_si
 from tribodyn.core.errors import InputError

@@ -17,7 +17,7 @@ from tribodyn.cases.fields import Numbers, choice, file, name, number, quantity,
 from tribodyn.cases.units import unit_of
 
 if TYPE_CHECKING:
-    from tribodyn.core.arrays import FloatArray
+    from mebdf.arrays import FloatArray
     from tribodyn.core.signals import Signal
 
 _FORMULA: Final = ("value", "amplitude", "swing")

@@ -14,7 +14,7 @@ from typing import Any, Final, NoReturn
 
 from pydantic import BaseModel
 
-from tribodyn.cases.entry import Entry
+from tribodyn.cases.fields import Entry
 from tribodyn.cases.keys import ANY_NAME, VALUE, Key, Value, groups_of, keys_of
 from tribodyn.cases.parameters import keys_with_units
 from tribodyn.cases.units import AXES, from_si

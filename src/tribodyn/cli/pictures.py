@@ -10,8 +10,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.directory import FIGURES, REPORT
 from tribodyn.cli.interrupt import on_leaving
+from tribodyn.cli.options import FIGURES, REPORT
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -11,7 +11,7 @@ from tribodyn.contact.asperities import SEPARATIONS
 from tribodyn.contact.bulk import Liner, lined
 from tribodyn.contact.contact_law import ContactLaw
 from tribodyn.contact.damping_factors import DAMPING_FACTORS
-from tribodyn.contact.kogut_etsion import KogutEtsion
+from tribodyn.contact.elastic_plastic import KogutEtsion
 from tribodyn.contact.parameter import parameters_of
 from tribodyn.contact.rsdc import RSDC
 from tribodyn.contact.surface_pair import SurfacePair
@@ -21,12 +21,12 @@ from tribodyn.core.errors import InputError
 
 #: Every law, one line each: its file and its class.
 _MEMBERS = (
-    "kogut_etsion:KogutEtsion",
+    "elastic_plastic:KogutEtsion",
     "rsdc:RSDC",
     "greenwood_tripp:GreenwoodWilliamson",
     "greenwood_tripp:GreenwoodTripp",
-    "kogut_etsion:ChangEtsionBogy",
-    "jackson_green:JacksonGreen",
+    "elastic_plastic:ChangEtsionBogy",
+    "elastic_plastic:JacksonGreen",
     "linear:LinearContact",
 )
 

@@ -15,9 +15,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.contact_law import ContactLaw, asperity_integral, density, exceedance
 from tribodyn.contact.surface_pair import SurfacePair
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
 #: Origins of h.

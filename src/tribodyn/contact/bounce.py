@@ -12,9 +12,9 @@ found from the pressure that the same impact would reach without damping.
 from dataclasses import dataclass
 from typing import Final
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.contact.contact_law import DESIGN_PRESSURE
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy

@@ -27,11 +27,11 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.contact.contact_law import MEMORYLESS, ContactLaw
 from tribodyn.contact.damping_factors import calibrated
 from tribodyn.contact.table import table_of_nodes
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable, Remembered
 from tribodyn.kernels.joints.surface.bulk import ARC, KAPPA, ROUNDING, WIDEST
 

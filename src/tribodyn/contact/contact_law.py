@@ -8,11 +8,11 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor
 from tribodyn.contact.parameter import check_parameters
 from tribodyn.contact.surface_pair import SurfacePair
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.splines import gauss_legendre
 

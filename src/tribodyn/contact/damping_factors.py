@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.asperities import AsperityLaw, Regime
 from tribodyn.contact.contact_law import ContactLaw, asperity_integral
-from tribodyn.core.arrays import FloatArray
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.contact_law import ContactLaw, asperity_integral, exceedance
 from tribodyn.contact.parameter import parameter
-from tribodyn.core.arrays import FloatArray
 
 CORNER: Final = 0.1  #: w, in units of σ; the table of the law has 13 nodes on it.
 

@@ -11,9 +11,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.contact_law import asperity_integral, exceedance
-from tribodyn.contact.kogut_etsion import KogutEtsion
-from tribodyn.core.arrays import FloatArray
+from tribodyn.contact.elastic_plastic import KogutEtsion
 
 
 @dataclass(frozen=True)

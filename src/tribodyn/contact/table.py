@@ -4,9 +4,9 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.bounce import calibrating_scale
 from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
 

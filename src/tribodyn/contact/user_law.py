@@ -6,8 +6,8 @@ from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
 #: User-defined law: a class, or a function that returns the pressure [Pa] at an array of h*.

@@ -1,4 +1,4 @@
-"""The protocol between a mechanism and an integrator.
+"""The protocol between a mechanism and an integrator, and whether the caller wants a run to stop.
 
 A mechanism hands an integrator a :class:`Problem`: compiled functions on plain
 arrays, the constant data they read and the memory they change. Everything an
@@ -28,19 +28,25 @@ The rules
 7. A problem with an ``algebra`` of its own never meets a matrix of n² numbers: ``jac`` is handed the entries
    of the Jacobian, cleared, and ``factorise`` and ``solve`` read and change their arguments alone. After
    ``factorise`` any number of calls of ``solve`` may follow.
+
+The question is set once around a run. Whatever computes for longer than a second asks it in between: what a
+result needs raises, what a result can do without is skipped.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
+from tribodyn.core.errors import Stopped
 
 Floats: TypeAlias = NDArray[np.floating[Any]]  #: Numbers of any precision.
 
@@ -184,3 +190,51 @@ class Solution:
     def complete(self) -> bool:
         """Whether the end of the time span was reached."""
         return self.failure is None
+
+
+Stop: TypeAlias = Callable[[], bool] | None  #: Returns whether to stop; None where nobody can ask for that.
+
+
+@dataclass
+class _Question:
+    """Question to the caller, and whether anything was skipped because of the answer."""
+
+    stop: Stop = None
+    skipped: bool = False
+
+
+_question: ContextVar[_Question | None] = ContextVar("question", default=None)
+
+
+@contextmanager
+def asked(stop: Stop) -> Iterator[None]:
+    """Have everything within the block ask ``stop``."""
+    before = _question.set(_Question(stop))
+    try:
+        yield
+    finally:
+        _question.reset(before)
+
+
+def ask() -> None:
+    """Raise :class:`~tribodyn.core.errors.Stopped` if the caller wants to stop."""
+    question = _question.get()
+    if question is not None and question.stop is not None and question.stop():
+        raise Stopped
+
+
+def skip() -> bool:
+    """Return whether the caller wants to stop, so that work which a result can do without is skipped."""
+    try:
+        ask()
+    except Stopped:
+        if (question := _question.get()) is not None:
+            question.skipped = True
+        return True
+    return False
+
+
+def skipped() -> bool:
+    """Return whether any work was skipped."""
+    question = _question.get()
+    return question is not None and question.skipped

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly

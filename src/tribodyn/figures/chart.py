@@ -14,14 +14,13 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.style import GREY, SMALL, legend_below
-from tribodyn.results.atomic import replacing
+from tribodyn.results.store import replacing
 from tribodyn.views.charts import Chart, ChartMarks, Panel
-from tribodyn.views.events import finite, impact_time, peak, reversal_times, series
 from tribodyn.views.gltf import Solid
-from tribodyn.views.playback import time_unit
+from tribodyn.views.playback import finite, impact_time, peak, reversal_times, series, time_unit
 from tribodyn.views.section import angle_of
 
 

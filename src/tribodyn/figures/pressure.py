@@ -13,13 +13,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.chart import Family
 from tribodyn.figures.style import GREY, SMALL, TEXT, caption, colour_bar, note, sheet
 from tribodyn.views.bushing import WALL, Unrolled, unrolled
-from tribodyn.views.events import series, signed
 from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
+from tribodyn.views.playback import series, signed
 from tribodyn.views.wear import WORN, fitting_unit
 
 # White where there is nothing, then steadily darker: a grey print keeps the order.

@@ -14,8 +14,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.views.events import finite
+from mebdf.arrays import FloatArray
+from tribodyn.views.playback import finite
 
 INK: Final = "#1b1b1b"
 BLUE: Final = "#0072b2"

@@ -18,11 +18,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.chart import Family
-from tribodyn.views.events import finite
 from tribodyn.views.numbers import as_read
+from tribodyn.views.playback import finite
 
 SAMPLES: Final = "point"
 _COLOURS: Final = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.INK)

@@ -27,7 +27,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import CompiledFunctions, Problem, Statistics
 

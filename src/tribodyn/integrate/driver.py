@@ -11,7 +11,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Floats, Problem, Solution, Statistics
 from tribodyn.integrate.base import Binding, Method, Segment, Step, VectorFunction, all_finite

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import LinearSolver, Solution
 from tribodyn.integrate.driver import IntegrationTask, Walk
@@ -23,8 +23,7 @@ from tribodyn.integrate.driver import IntegrationTask, Walk
 if TYPE_CHECKING:
     from mebdf.kernels.state import Mass, MebdfState
     from mebdf.mass import MassMatrix
-    from tribodyn.kernels.mebdf.drive import Marks
-    from tribodyn.kernels.mebdf.own import OwnMatrix
+    from tribodyn.kernels.mebdf.drive import Marks, OwnMatrix
 
 #: Time in compiled code between two looks at ``progress`` and ``stop`` [s]; an evaluation ends first.
 BETWEEN_LOOKS: Final = 0.1
@@ -167,7 +166,7 @@ class _CompiledWalk(Walk):
         return jacobian
 
     def _new_matrix(self, algebra: LinearSolver) -> OwnMatrix:
-        from tribodyn.kernels.mebdf.own import OwnMatrix
+        from tribodyn.kernels.mebdf.drive import OwnMatrix
 
         entry, last, previous = np.zeros((3, algebra.n_entries or algebra.places.shape[1]))
         pivots = np.zeros(algebra.n_pivots, dtype=np.int64)

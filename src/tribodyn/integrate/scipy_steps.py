@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.integrate.base import Interpolant, Segment, Step, VectorFunction
 

@@ -2,8 +2,8 @@
 
 from tribodyn.joints.bushing import BushingJoint, EntryMemory, Friction, Grid
 from tribodyn.joints.clearances import contact_table
-from tribodyn.joints.form import Form
 from tribodyn.joints.point_contact import CONTACTS, SURFACE, point_table
+from tribodyn.joints.rows import Form
 
 __all__ = [
     "CONTACTS",

@@ -6,24 +6,22 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.bulk import Bulk, Liner
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record, names
 from tribodyn.core.remembered import ContactTable
 from tribodyn.joints.clearances import Place, SurfaceLaw, fill_points, join
-from tribodyn.joints.form import Form
-from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.point_contact import SURFACE, Touch
+from tribodyn.joints.rows import Form
 from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.rings import Rings, with_edges
 from tribodyn.joints.shapes.surface import Points, Surface
-from tribodyn.joints.touch import Touch
-from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.jit import new_record
 from tribodyn.kernels.joints.bushing import BushingData, report, wrench, wrench_and_jacobian
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.joints.memory import new_memory as memory_of_surface
-from tribodyn.kernels.joints.paper import fill_pose, from_jacobian, from_report, from_wrench
-from tribodyn.kernels.joints.pose import Pose
+from tribodyn.kernels.joints.pose import Pose, fill_pose, from_jacobian, from_report, from_wrench
 from tribodyn.kernels.joints.quantities import REPORTED
 from tribodyn.kernels.joints.surface.bulk import RING
 from tribodyn.kernels.joints.surface.data import GAP

@@ -10,24 +10,24 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.contact import Liner
 from tribodyn.contact.bulk import LEVELS, Bulk
 from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.core.problem import ask
 from tribodyn.core.quantities import Record
 from tribodyn.core.remembered import ContactTable
 from tribodyn.core.signals import Signal
-from tribodyn.core.stopping import ask
 from tribodyn.joints.point_contact import SURFACE, point_table, surface_table
 from tribodyn.joints.rows import angles_of, rings_of, rows_of
 from tribodyn.joints.shapes import Points, Shape, Surface
-from tribodyn.kernels.arrays import new_record
+from tribodyn.kernels.jit import new_record
 from tribodyn.kernels.joints.surface import data as kernel
 from tribodyn.kernels.joints.surface.bulk import KAPPA
 from tribodyn.kernels.joints.surface.data import SurfaceData
-from tribodyn.kernels.joints.surface.pose import Pose
+from tribodyn.kernels.joints.surface.tilt import Pose
 
 if TYPE_CHECKING:
     from tribodyn.lubrication import Film
@@ -252,7 +252,7 @@ def pose_at(
     v: ArrayLike = (0.0, 0.0, 0.0),
     w: ArrayLike = (0.0, 0.0, 0.0),
 ) -> Record:
-    """Return the pose of a shaft as drawn or elsewhere, see ``kernels/joints/surface/pose.py``."""
+    """Return the pose of a shaft as drawn or elsewhere, see ``kernels/joints/surface/tilt.py``."""
     pose = new_record(Pose)
     pose.rotation[:] = np.eye(3) if rotation is None else rotation
     pose.d[:], pose.v[:], pose.w[:] = d, v, w

@@ -11,8 +11,8 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.bounce import undamped_depth
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints.bushing import BushingJoint, contact_energy, new_memory
 from tribodyn.joints.point_contact import SURFACE

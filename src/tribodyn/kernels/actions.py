@@ -10,8 +10,8 @@ polynomial of this side.
 import math
 from typing import Annotated, Any, Final, NamedTuple
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import cos, sin
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.jit import entry, kernel
 

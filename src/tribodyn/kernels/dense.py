@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray
+from mebdf.arrays import FloatArray, FloatMatrix, IntArray
 from tribodyn.kernels.jit import entry, kernel
 
 _ROUNDING: Final = 2.0**-52

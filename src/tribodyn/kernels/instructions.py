@@ -1,4 +1,4 @@
-"""Code generators of ``extremes`` and of the call of a force law, imported where something is compiled."""
+"""Code generators of the larger of two numbers and of the call of a force law, for what compiles."""
 
 from typing import Any, Final
 

@@ -19,10 +19,9 @@ or :func:`add_part`.
 
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record, RecordType, record_type
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import kernel, new_record
 
 NOW: Final = 0
 LAST: Final = 1

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import entry, inlined
 

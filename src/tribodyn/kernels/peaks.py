@@ -13,10 +13,9 @@ from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
+from mebdf.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import inlined, kernel, new_record
 from tribodyn.kernels.ledger import EARLIER, LAST, NOW
 
 IMPACT: Final = 0

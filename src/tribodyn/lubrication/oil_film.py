@@ -8,10 +8,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
-from tribodyn.kernels.arrays import new_record
 from tribodyn.kernels.film.data import (
     HALF_SOMMERFELD,
     JFO,
@@ -29,6 +28,7 @@ from tribodyn.kernels.film.data import (
     Work,
     ZFace,
 )
+from tribodyn.kernels.jit import new_record
 from tribodyn.lubrication.factors import Roughness, flow_table
 
 #: Cavitation models by name.

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
 
 GROUND: Final = "ground"  #: Name of the body that never moves.

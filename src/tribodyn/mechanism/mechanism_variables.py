@@ -6,11 +6,11 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import TIME, Table, names, slices
 from tribodyn.kernels.film.report import FILM, FILM_PEAKS
-from tribodyn.kernels.joints.surface.quantities import PEAKS, PLASTIC
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
+from tribodyn.kernels.joints.surface.data import PEAKS, PLASTIC
+from tribodyn.kernels.mechanism.observe import BODY, COUPLING, N_BODY, N_COUPLING, N_WHOLE, WHOLE
 from tribodyn.mechanism.model.reversals import PEAKS as REVERSAL_PEAKS
 from tribodyn.results.variables import (
     FRAME,

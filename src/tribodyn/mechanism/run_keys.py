@@ -6,7 +6,7 @@ from tribodyn.cases.case import Group, demand_known
 from tribodyn.cases.fields import choice, count, names, number, quantity
 from tribodyn.cases.groups import GridKeys
 from tribodyn.cases.keys import ASSUMED
-from tribodyn.mechanisms.playback import EVEN
+from tribodyn.mechanisms.workload import EVEN
 
 ROWS: Final = 500  #: Rows of a result for which no interval was given.
 SMALL: Final = 32  #: Joints of a model up to which results hold everything.

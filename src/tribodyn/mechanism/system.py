@@ -12,12 +12,12 @@ from typing import Any, Final, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.joints.clearances import Clearance, places
-from tribodyn.kernels.joints.surface.quantities import PLASTIC
+from tribodyn.kernels.joints.surface.data import PLASTIC
 from tribodyn.mechanism.analyses.analysis import NOTES, analysed
 from tribodyn.mechanism.analyses.ideal_motion import compared, led_along
 from tribodyn.mechanism.analyses.sampling import sampled
@@ -43,6 +43,7 @@ from tribodyn.mechanism.results.followed import (
     drive_limits,
     followed,
     power_columns,
+    spring_columns,
     stresses,
     transmitted,
     with_motors,
@@ -69,14 +70,13 @@ from tribodyn.mechanism.results.output_columns import (
     output_coordinates,
 )
 from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
-from tribodyn.mechanism.results.springs import spring_columns
 from tribodyn.mechanism.results.temperature_effects import flash_temperatures
+from tribodyn.mechanisms.bushing import Carried, WearNodes, Worn
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, limits_of
 from tribodyn.mechanisms.output_numbers import lives
-from tribodyn.mechanisms.playback import frame_times, shown
 from tribodyn.mechanisms.self_checks import named, of_clearance, of_tables
-from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
+from tribodyn.mechanisms.workload import frame_times, shown
 from tribodyn.results.dataset import CARRIED, NOT_KEPT
 
 _STATES: Final = 13  #: Of a body.

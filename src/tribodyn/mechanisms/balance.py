@@ -5,8 +5,8 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.core.stopping import ask
+from mebdf.arrays import FloatArray
+from tribodyn.core.problem import ask
 from tribodyn.kernels import dense
 
 #: A step passes less than σ, and the way through the widest clearances is some hundreds of that.

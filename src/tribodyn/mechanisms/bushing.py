@@ -1,4 +1,4 @@
-"""The clearance joint that a case describes, and what results hold of it whatever it joins."""
+"""The clearance joint that a case describes, what results hold of it, and the state of its wear."""
 
 import math
 from collections.abc import Mapping
@@ -8,17 +8,17 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases import groups
 from tribodyn.cases.rough import BushingCase
 from tribodyn.contact import Liner, SurfacePair
 from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.core.arrays import FloatArray
-from tribodyn.core.stopping import skip
+from tribodyn.core.problem import skip
 from tribodyn.joints import BushingJoint, EntryMemory, Friction, Grid, contact_table
 from tribodyn.joints.bushing import joint_report, joint_wrench, new_memory
+from tribodyn.joints.point_contact import Touch
 from tribodyn.joints.shapes import Cylinder
-from tribodyn.joints.touch import Touch
 from tribodyn.kernels.joints.bushing import BushingData
 from tribodyn.wear import resampled
 
@@ -233,3 +233,28 @@ def _force_error(
     pairs = np.stack([exact, found - exact], axis=1)
     largest, error = np.fmax.reduce(portable.hypot(*np.transpose(pairs)), axis=1, initial=0.0)
     return float(error / largest) if largest > 0.0 else 0.0
+
+
+@dataclass(frozen=True)
+class Carried:
+    """State that a run hands on to the next one, which begins at its end in the drive's cycle."""
+
+    state: FloatArray  #: The states, shape (n,).
+    entry_velocity: FloatArray  #: Memory of contact: δ̇₋ at the nodes [m/s], in the shape of the nodes.
+
+
+@dataclass(frozen=True)
+class Worn:
+    """The joints that a run is made with."""
+
+    depth: FloatArray  #: Wear depth at the nodes [m], in their shape.
+    carried: Carried | None = None  #: Where the run continues from; None for the start of the case.
+
+
+@dataclass(frozen=True)
+class WearNodes:
+    """The nodes of all that wears."""
+
+    area: FloatArray  #: Area that each node stands for [m²], in the shape of the nodes.
+    roughness: float  #: The least combined rms roughness σ among them [m].
+    n_states: int  #: Length of the state that :class:`Carried` hands on.

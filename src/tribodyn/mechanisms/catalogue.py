@@ -17,7 +17,7 @@ from typing import Final, Protocol, TypeAlias, cast
 
 from tribodyn.cases import load
 from tribodyn.cases.case import Case
-from tribodyn.cases.entry import Entry
+from tribodyn.cases.fields import Entry
 from tribodyn.cases.load import BuiltIn
 from tribodyn.core import files
 from tribodyn.core.errors import InputError

@@ -5,12 +5,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.groups import Bushing, Surfaces, Trunnion
 from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.contact.flash_temperature import Conductor, flash_temperature
-from tribodyn.core.arrays import FloatArray
+from tribodyn.contact.surface_pair import Conductor, flash_temperature
 from tribodyn.joints import BushingJoint
-from tribodyn.joints.touch import Touch
+from tribodyn.joints.point_contact import Touch
 
 
 def has_conductors(surfaces: Surfaces) -> bool:

@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
 from tribodyn.cases.joint_keys import Wear
 from tribodyn.cases.load import BuiltIn
 from tribodyn.cases.messages import Remarks
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem, Solution
-from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
+from tribodyn.mechanisms.bushing import Carried, WearNodes, Worn
 from tribodyn.mechanisms.workload import Workload
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import Variable

@@ -6,10 +6,10 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import fields
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Numbers, series
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.mechanism_protocol import plain
 
 ANGLE_UNIT: Final = "deg"

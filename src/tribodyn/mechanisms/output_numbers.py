@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.mechanism_protocol import ByPart, plain
 from tribodyn.mechanisms.output_keys import Instant

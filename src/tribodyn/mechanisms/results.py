@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Table, names
 from tribodyn.kernels.peaks import Peaks

@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.beyond import FollowedTable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.joints.touch import Touch
+from tribodyn.joints.point_contact import Touch
 from tribodyn.mechanisms.results import impact_time
 
 ENERGY_LIMIT: Final = 0.01

@@ -7,13 +7,13 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.beyond import lasts_a_cycle
 from tribodyn.cases.loads import BodyLoad
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal, for_each_cycle, scaled, sinusoid
 from tribodyn.kernels import actions as kinds
 from tribodyn.kernels.actions import Actions
-from tribodyn.kernels.arrays import new_records
+from tribodyn.kernels.jit import new_records
 from tribodyn.mechanisms.signal_pieces import NO_KINKS, SignalList, pieces_of
 
 TIME: Final = 0  #: The first of the coordinates that signals may follow.

@@ -6,11 +6,11 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import actions as kinds
-from tribodyn.kernels.arrays import new_records
+from tribodyn.kernels.jit import new_records
 
 NO_KINKS: Final = np.empty(0)
 _SAME: Final = 1.0e-12  #: Share of a time by which two instants may differ that are one but for rounding.

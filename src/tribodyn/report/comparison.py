@@ -15,8 +15,7 @@ from tribodyn.report.content import chapters, reading
 from tribodyn.report.page import page
 from tribodyn.report.parallel import ParallelAxis, ParallelPoint
 from tribodyn.results import KeyResult, json_attribute
-from tribodyn.results.atomic import write_text
-from tribodyn.results.store import POINTS, RESULT
+from tribodyn.results.store import POINTS, RESULT, write_text
 from tribodyn.results.summary import caution
 from tribodyn.views.common import in_common, overlays
 from tribodyn.views.numbers import fitting, in_words, interval

@@ -8,13 +8,13 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 from tribodyn.figures import sweep
 from tribodyn.figures.chart import Animation, Family, remove, save
 from tribodyn.mechanisms.results import all_there, mechanism_of
-from tribodyn.results.atomic import write_bytes
+from tribodyn.results.store import write_bytes
 from tribodyn.views.playback import playback_times
 
 

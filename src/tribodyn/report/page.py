@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import keys_of
 from tribodyn.cases.keys import ASSUMED
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import key_numbers_of, known, mechanism_of, read, summarise

@@ -10,7 +10,7 @@ from urllib.parse import quote
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.results.store import POINTS
 from tribodyn.results.summary import caution
 from tribodyn.views.encode import packed

@@ -10,8 +10,8 @@ from tribodyn.mechanisms.results import all_there
 from tribodyn.report.figures import figures_of
 from tribodyn.report.page import render
 from tribodyn.report.sweep import render_sweep
-from tribodyn.results.atomic import write_text
 from tribodyn.results.dataset import SWEEP
+from tribodyn.results.store import write_text
 
 NAME: Final = "report.html"
 

@@ -12,9 +12,9 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.groups import Contact
 from tribodyn.cases.loads import Controlled, OwnFunction, with_functions
 from tribodyn.contact import OwnLaw, law_of_user
+from tribodyn.core.environment import one_thread
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.linear_algebra import one_thread
-from tribodyn.core.stopping import asked
+from tribodyn.core.problem import asked
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor, ResultPart, SystemCase

@@ -13,11 +13,11 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
 from tribodyn.integrate import INTERRUPTED
-from tribodyn.mechanisms.wear_state import Carried
+from tribodyn.mechanisms.bushing import Carried
 from tribodyn.results.variables import CAMPAIGN
 from tribodyn.wear import Archard, JumpControl, load_change, worn_volume
 

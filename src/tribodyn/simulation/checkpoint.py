@@ -16,8 +16,8 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.files import open_regular
 from tribodyn.core.platforms import provenance
 from tribodyn.core.quoting import LONGEST, brief
-from tribodyn.mechanisms.wear_state import Carried
-from tribodyn.results.atomic import replacing
+from tribodyn.mechanisms.bushing import Carried
+from tribodyn.results.store import replacing
 from tribodyn.simulation.campaign import Campaign, columns
 
 FORMAT: Final = 2

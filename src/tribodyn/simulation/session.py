@@ -6,12 +6,12 @@ from typing import Any
 
 import xarray as xr
 
-from tribodyn.core.digests import digest
 from tribodyn.core.platforms import provenance
-from tribodyn.core.problem import Problem, Solution
-from tribodyn.core.stopping import Stop, skipped
+from tribodyn.core.problem import Problem, Solution, Stop, skipped
+from tribodyn.core.remembered import digest
 from tribodyn.integrate import INTERRUPTED, integrate
 from tribodyn.kernels.jit import made_by
+from tribodyn.mechanisms.bushing import Worn
 from tribodyn.mechanisms.mechanism_protocol import (
     FinishedRun,
     MechanismDescriptor,
@@ -19,7 +19,6 @@ from tribodyn.mechanisms.mechanism_protocol import (
     SimulatedSystem,
     SystemCase,
 )
-from tribodyn.mechanisms.wear_state import Worn
 from tribodyn.results import build
 from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, WEAR_SCATTER
 from tribodyn.simulation import session as hashes

@@ -9,10 +9,10 @@ from typing import Final, cast
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.joint_keys import Wear
-from tribodyn.core.arrays import FloatArray
+from tribodyn.mechanisms.bushing import Carried, Worn
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearingCase, WearingSystem
-from tribodyn.mechanisms.wear_state import Carried, Worn
 from tribodyn.simulation import checkpoint as checkpoints
 from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_campaign
 from tribodyn.simulation.session import Session

@@ -15,12 +15,12 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
 from tribodyn.cases.units import from_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.results.atomic import write_text
+from tribodyn.results.store import write_text
 from tribodyn.studies.choices import Choice, QuadraticModel, Scattering, are_kept
 from tribodyn.studies.differences import DIGITS, numbers_of
 from tribodyn.studies.plan import Axis, plan_of

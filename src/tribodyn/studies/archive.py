@@ -24,10 +24,19 @@ from tribodyn.core.platforms import version
 from tribodyn.core.quoting import brief
 from tribodyn.mechanisms.results import known
 from tribodyn.mechanisms.self_checks import YIELDED
-from tribodyn.results.atomic import adopt, remove_stale_parts, write_bytes, write_text
 from tribodyn.results.dataset import SWEEP, assembled, variable
 from tribodyn.results.schema import is_summary
-from tribodyn.results.store import CASE, POINTS, RESULT, SUMMARY, summary_text
+from tribodyn.results.store import (
+    CASE,
+    POINTS,
+    RESULT,
+    SUMMARY,
+    adopt,
+    remove_stale_parts,
+    summary_text,
+    write_bytes,
+    write_text,
+)
 from tribodyn.results.summary import Summary
 from tribodyn.results.variables import POINT_TEXTS
 from tribodyn.studies.plan import POINT, Point, SweepPlan

@@ -16,9 +16,9 @@ from typing import Any, Final, Self, TypeAlias, cast
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
 from tribodyn.cases.case import with_entries
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.output_keys import Instant

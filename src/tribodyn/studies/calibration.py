@@ -20,12 +20,12 @@ import numpy as np
 import xarray as xr
 from scipy import stats
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
-from tribodyn.results.atomic import write_bytes, write_text
+from tribodyn.results.store import write_bytes, write_text
 from tribodyn.simulation import simulate
 from tribodyn.studies import least_squares
 from tribodyn.studies.measured import Experiment, MeasuredCurve, MeasuredNumber

@@ -11,8 +11,8 @@ from typing import Any, Final, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import from_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import TribodynError
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.search import Limit

@@ -25,8 +25,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, keys_in
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import read

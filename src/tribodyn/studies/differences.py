@@ -13,8 +13,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
 from tribodyn.mechanisms.catalogue import load_case

@@ -11,9 +11,9 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.results.atomic import write_text
+from mebdf.arrays import FloatArray
 from tribodyn.results.columns import variable
+from tribodyn.results.store import write_text
 from tribodyn.studies.calibration import STEP, Calibration
 from tribodyn.studies.least_squares import LeastSquares
 from tribodyn.studies.measured import MeasuredCurve

@@ -7,7 +7,7 @@ from typing import Any, Final, Literal
 import numpy as np
 from scipy import optimize, stats
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 
 Loss = Literal["linear", "soft_l1"]
 STARTS: Final = 8

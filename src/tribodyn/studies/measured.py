@@ -25,14 +25,14 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import UnitProblem, to_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import is_comment, named, read_regular, separator_of, text_of, with_points
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.columns import unit_of, variable
-from tribodyn.views.events import impact_windows
+from tribodyn.views.playback import impact_windows
 
 OPTION: Final = "--data"
 LARGEST: Final = 20_000_000

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.studies.calibration import Calibration
 from tribodyn.studies.least_squares import CONFIDENCE, LeastSquares, cost_of

@@ -13,7 +13,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 
 
 def latin_hypercube(samples: int, dimensions: int, seed: int) -> FloatArray:

@@ -13,7 +13,7 @@ from typing import Final
 import xarray as xr
 
 from tribodyn.cases import Case, Key
-from tribodyn.cases.entry import Entry, read_entry
+from tribodyn.cases.fields import Entry, read_entry
 from tribodyn.cases.keys import Value
 from tribodyn.cases.units import with_shared_unit
 from tribodyn.core.errors import InputError, TribodynError

@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.studies.plan import POINT, SENSITIVITY
 
 #: Functions of the finite values of a key result, by name; ``p5`` is the fifth percentile.

@@ -17,8 +17,7 @@ from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.platforms import processors, version
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
-from tribodyn.results.atomic import write_bytes, write_text
-from tribodyn.results.store import FEW_POINTS, prepare_directory
+from tribodyn.results.store import FEW_POINTS, prepare_directory, write_bytes, write_text
 from tribodyn.results.summary import Summary
 from tribodyn.simulation import estimate
 from tribodyn.simulation.costs import MOST_MEMORY, MOST_TIME, PROGRAM, in_bytes, in_time

@@ -14,10 +14,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
 from tribodyn.cases.units import UnitProblem, dimension, to_si
 from tribodyn.core import files
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.studies.plan import varied_key

@@ -8,9 +8,9 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.keys import Key, Value, ValueProblem, shown
 from tribodyn.cases.units import from_si, with_shared_unit
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import meant
 from tribodyn.studies.sampling import DISTRIBUTIONS, Distribution, DistributionProblem

@@ -26,7 +26,7 @@ class PointOutcome:
     summary: Summary
     #: The dataset as NetCDF; empty where there is none, or none is wanted, or it is staged.
     result: bytes = b""
-    #: File with the dataset, from :func:`tribodyn.results.atomic.stage`; empty where there is none.
+    #: File with the dataset, from :func:`tribodyn.results.store.stage`; empty where there is none.
     staged: str = ""
     final: bool = True  #: Whether computing it again would give the same. Not so where a worker died.
 
@@ -113,7 +113,7 @@ def blocks_of(case: Case, points: Sequence[Point], workers: int) -> Iterator[Seq
 def _simulated(case: Case, keep_result: bool, staging: str, stop: Callable[[], bool] | None) -> PointOutcome:
     from tribodyn.mechanisms.results import summarise
     from tribodyn.results import netcdf_content
-    from tribodyn.results.atomic import stage
+    from tribodyn.results.store import stage
     from tribodyn.simulation import simulate
 
     dataset = simulate(case, stop=stop)

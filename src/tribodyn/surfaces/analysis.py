@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import scipy
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 from tribodyn.surfaces.moments import LEAST_BANDWIDTH, Asperities, Moments, asperities, moments

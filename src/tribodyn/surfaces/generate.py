@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.surfaces.moments import Moments
 from tribodyn.surfaces.scan import Scan

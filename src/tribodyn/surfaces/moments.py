@@ -17,7 +17,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.surfaces.scan import Scan
 
 REACH: Final = 3  #: Points on each side that a difference reads.

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.surfaces.analysis import MeasuredSurface
 
 #: Sections of a profile whose heights from the lowest to the highest point Rz is the mean of.

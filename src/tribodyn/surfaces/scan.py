@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 
 #: Reads a length with its unit, such as ``0.5 um``, as metres; raises ValueError saying what is wrong.

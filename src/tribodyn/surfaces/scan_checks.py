@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.surfaces.scan import Scan
 from tribodyn.surfaces.treatment import filled, levelled

@@ -9,7 +9,7 @@ from typing import BinaryIO, Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import ARCHIVES, is_comment, text_of, with_points
 from tribodyn.core.quoting import as_given

@@ -23,7 +23,7 @@ from typing import BinaryIO, Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import is_comment, named, separator_of
 from tribodyn.core.quoting import as_given, brief

@@ -14,7 +14,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import scipy
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.surfaces.scan import Scan
 
 

@@ -1,4 +1,4 @@
-"""Result of a validation set: numbers with uncertainties and verdicts, and curves for its plot."""
+"""Result of a validation set: numbers with uncertainties and verdicts, curves, and predictions."""
 
 import math
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 
 
 class Verdict(StrEnum):
@@ -172,3 +172,29 @@ class Outcome:
 
     comparisons: tuple[Comparison, ...]
     plot: Plot | None = None
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """A number stated before its measured value is seen."""
+
+    #: Validation set, what it is, and its unit.
+    set: str
+    name: str
+    unit: str
+    #: Value and interval.
+    value: float
+    low: float
+    high: float
+    #: Value and interval of the null model.
+    null: float
+    null_low: float
+    null_high: float
+    reading: str  #: How the measured value is read.
+    half_width: float  #: Half width of that reading.
+
+    @property
+    def refuted_by(self) -> str:
+        """Measured values that refute the prediction."""
+        low, high = self.low - self.half_width, self.high + self.half_width
+        return f"a measured value below {low:.4g} or above {high:.4g} {self.unit}"

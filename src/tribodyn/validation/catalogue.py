@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, Final, cast
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import from_si, si_unit, to_si, unit_of
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.catalogue import load_case

@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 from scipy.special import stdtrit
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
+from tribodyn.validation.base import Prediction
 from tribodyn.validation.catalogue import ValidationSet, load, varied
-from tribodyn.validation.prediction import Prediction
 from tribodyn.validation.sets import friction_damper_backlash as damper
 from tribodyn.validation.sets import hip_simulator_wear as hip
 from tribodyn.validation.sets import oblique_impact as oblique

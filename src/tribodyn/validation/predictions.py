@@ -18,9 +18,9 @@ from typing import Any, Final
 import numpy as np
 
 from tribodyn.cases.units import number_in
+from tribodyn.validation.base import Prediction
 from tribodyn.validation.catalogue import ValidationSet, Varied, load, varied
 from tribodyn.validation.held_back import held_back
-from tribodyn.validation.prediction import Prediction
 from tribodyn.validation.sets import journal_peak_pressure as peak
 from tribodyn.validation.sets import oblique_impact as oblique
 from tribodyn.validation.sets import screw_drive_friction as screw

@@ -26,9 +26,9 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
 from tribodyn.cases.tables import value_at
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular, text_of
 from tribodyn.core.quoting import as_given

@@ -5,13 +5,12 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.views.bushing import shares, unrolled
 from tribodyn.views.charts import Chart, ChartCurve, Panel
-from tribodyn.views.events import series, signed
 from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
-from tribodyn.views.playback import LINE_ERROR, dense_times, playback_times
+from tribodyn.views.playback import LINE_ERROR, dense_times, playback_times, series, signed
 from tribodyn.views.section import Payload, Section
 
 

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.views.encode import stepped
-from tribodyn.views.events import (
+from tribodyn.views.numbers import fitting
+from tribodyn.views.playback import (
     finite,
     impact_time,
     impact_windows,
@@ -24,9 +25,8 @@ from tribodyn.views.events import (
     reversal_times,
     series,
     smooth_limits,
+    time_unit,
 )
-from tribodyn.views.numbers import fitting
-from tribodyn.views.playback import time_unit
 from tribodyn.views.section import Payload, Section, coordinates
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.results.dataset import CARRIED
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over
-from tribodyn.views.events import series
+from tribodyn.views.playback import series
 from tribodyn.views.section import Payload, Section
 
 _SAME: Final = 1.0e-9  #: Times closer than this share of a drive cycle are the same.

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
-from tribodyn.views.events import peak, series
+from tribodyn.views.playback import peak, series
 
 if TYPE_CHECKING:
     import xarray as xr

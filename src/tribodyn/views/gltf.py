@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 
 _FLOAT: Final = 5126
 _INDEX: Final = 5125

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.views.encode import packed, stepped
-from tribodyn.views.events import peak
+from tribodyn.views.playback import peak
 from tribodyn.views.section import Payload, Section, choice
 
 if TYPE_CHECKING:

@@ -11,12 +11,12 @@ import numpy as np
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.views.encode import stepped
-from tribodyn.views.events import series
+from tribodyn.views.playback import series
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from tribodyn.core.arrays import FloatArray
+    from mebdf.arrays import FloatArray
 
 
 #: Data for the script of a figure: texts, numbers, lists, mappings and arrays.

@@ -6,11 +6,11 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.views.bushing import unrolled
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
-from tribodyn.views.events import peak, series
 from tribodyn.views.numbers import LENGTHS, in_words
+from tribodyn.views.playback import peak, series
 from tribodyn.views.section import Payload, Section
 
 UNITS: Final = dict(reversed(LENGTHS[:-1]))  #: Units of depth [m], the coarsest first.

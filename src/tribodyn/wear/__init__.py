@@ -1,7 +1,15 @@
 """Wear: from sliding loads to depth and volume, and how far one simulated cycle may be extrapolated."""
 
-from tribodyn.wear.archard import Archard, JumpControl, between_edges, load_change, resampled, worn_volume
-from tribodyn.wear.running_in import loaded_depth, worn_roughness
+from tribodyn.wear.archard import (
+    Archard,
+    JumpControl,
+    between_edges,
+    load_change,
+    loaded_depth,
+    resampled,
+    worn_roughness,
+    worn_volume,
+)
 
 __all__ = [
     "Archard",

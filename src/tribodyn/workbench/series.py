@@ -8,9 +8,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.keys import Key, ValueProblem
 from tribodyn.cases.tables import plain_path
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.results.summary import EFFORT
 from tribodyn.workbench import messages

@@ -83,7 +83,7 @@ def shown(dataset: xr.Dataset) -> dict[str, Any]:
 
 def _events(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the times of reversals and the length of the impacts after them [s]."""
-    from tribodyn.views.events import impact_time, reversal_times
+    from tribodyn.views.playback import impact_time, reversal_times
 
     turns = [float(turn) for turn in reversal_times(dataset)]
     settling, end = impact_time(dataset), float(dataset.attrs.get("time_reached", 0.0))

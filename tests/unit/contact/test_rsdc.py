@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import DAMPING_FACTORS, RSDC, KogutEtsion, SurfacePair, tabulate
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.kernels.joints.surface.quantities import PLASTIC
+from tribodyn.kernels.joints.surface.data import PLASTIC
 from tribodyn.mechanisms import self_checks as checks
 
 PAGE = Path(__file__).parents[3] / "docs" / "guide" / "self_checks.md"

@@ -32,7 +32,7 @@ LISTED = [kernel for sources in SOURCES for kernel in entries(sources)]
 #: Called by force laws, which are compiled.
 OF_LAWS = {
     "mebdf.kernels.elementary.exponential.exp",
-    "mebdf.kernels.elementary.logarithm.power",
+    "mebdf.kernels.elementary.exponential.power",
     "tribodyn.kernels.mechanism.law.followed_load",
 }
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import RSDC, SurfacePair, tabulate
 from tribodyn.contact.contact_law import ContactLaw
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels import dense
 from tribodyn.kernels.ledger import NOW

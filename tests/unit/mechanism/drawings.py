@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.signals import SpeedSignal
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Statistics
 from tribodyn.integrate import integrate
 from tribodyn.joints.clearances import Clearance

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from tests.unit.mechanism.slider_crank import parsed
 
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING
+from tribodyn.kernels.mechanism.observe import BODY, COUPLING
 from tribodyn.mechanism.mechanism_variables import BODIES, JOINTS, VARIABLES
 from tribodyn.results import build
 

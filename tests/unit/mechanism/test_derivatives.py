@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.unit.mechanism.drawings import body, joint, mechanism, vector
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.signals import AngleSignal, ForceMap, ForceSignal, TorqueMap, VelocitySignal
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.mechanism.assembly.assembly import assemble
 from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem

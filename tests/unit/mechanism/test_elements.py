@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from mebdf.arrays import FloatArray
 from tribodyn.cases.load import parse
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem
 from tribodyn.kernels.mechanism.bodies import collect, move, place
@@ -26,8 +26,7 @@ from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.elements.distance import Distance
 from tribodyn.mechanism.elements.element import ElementKeys
-from tribodyn.mechanism.elements.gear import Gear
-from tribodyn.mechanism.elements.rack import Rack
+from tribodyn.mechanism.elements.gear import Gear, Rack
 from tribodyn.mechanism.elements.screw import Screw
 from tribodyn.mechanism.elements.stop import one_sided
 from tribodyn.mechanism.figures.mechanism import draw

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.joints.clearances import pose_at

@@ -9,7 +9,7 @@ from tests.unit.mechanism.slider_crank import IDEAL, parsed
 
 import tribodyn as td
 from tribodyn.core.errors import Stopped
-from tribodyn.core.stopping import asked as asked_of
+from tribodyn.core.problem import asked as asked_of
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.system import MechanismSystem
 

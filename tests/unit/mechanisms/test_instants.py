@@ -6,7 +6,7 @@ import pytest
 import tribodyn as td
 from tribodyn.mechanisms.output_keys import Instant
 from tribodyn.mechanisms.output_numbers import errors_at, lives, passes, shaft_displacements
-from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, frame_times, shown
+from tribodyn.mechanisms.workload import AFTER_REVERSAL, EVEN, frame_times, shown
 
 ANGLE = np.linspace(-np.pi, np.pi, 97)[:-1]
 NORMAL = np.tile(np.column_stack([np.cos(ANGLE), np.sin(ANGLE), 0.0 * ANGLE]), (2, 1))

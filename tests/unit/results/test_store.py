@@ -9,8 +9,7 @@ import xarray as xr
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.results import read, summarise, write_run
 from tribodyn.results import build, store
-from tribodyn.results.atomic import replacing, write_text
-from tribodyn.results.store import summary_text
+from tribodyn.results.store import replacing, summary_text, write_text
 
 
 def test_a_run_reads_back_identical(make_result, tmp_path):

@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.core.errors import Stopped
 from tribodyn.core.problem import Statistics
-from tribodyn.mechanisms.wear_state import Carried
+from tribodyn.mechanisms.bushing import Carried
 from tribodyn.simulation.campaign import MOST_STAGES, CampaignPlan, Cycle, run_campaign
 from tribodyn.wear import Archard, JumpControl
 

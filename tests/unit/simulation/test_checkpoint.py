@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Statistics
-from tribodyn.mechanisms.wear_state import Carried
+from tribodyn.mechanisms.bushing import Carried
 from tribodyn.simulation import checkpoint
 from tribodyn.simulation.campaign import Campaign, columns
 

@@ -11,10 +11,10 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
+from mebdf.arrays import FloatArray, IntArray
 from tribodyn.cases.case import Case
 from tribodyn.cli.main import main
 from tribodyn.contact import LAWS
-from tribodyn.core.arrays import FloatArray, IntArray
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.joints import CONTACTS, SURFACE
 from tribodyn.mechanisms.catalogue import load_case

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.results.atomic import stage
+from tribodyn.results.store import stage
 from tribodyn.studies import make_plan
 from tribodyn.studies.archive import Archive
 from tribodyn.studies.plan import Point

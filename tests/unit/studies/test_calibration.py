@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.studies import Sampling, calibration, fit_report, posterior
 from tribodyn.studies.calibration import EVALUATIONS, Calibration, VariedKey

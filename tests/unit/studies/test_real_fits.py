@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.results.columns import variable
 from tribodyn.studies.calibration import Calibration, VariedKey
 from tribodyn.studies.fit_report import fitted_keys, statements

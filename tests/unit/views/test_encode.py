@@ -18,8 +18,8 @@ from tribodyn.results.summary import KeyResult
 from tribodyn.views.bushing import rolled, wall_angles
 from tribodyn.views.bushing_sections import CONTACT_FORCE
 from tribodyn.views.encode import inside_page, packed, quantised, stepped
-from tribodyn.views.events import reversal_times
 from tribodyn.views.numbers import as_read, columns_of, fitting
+from tribodyn.views.playback import reversal_times
 
 
 def opened(text: str) -> tuple[dict[str, Any], bytes]:

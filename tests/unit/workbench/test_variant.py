@@ -4,7 +4,7 @@ import shlex
 
 import pytest
 
-from tribodyn.cli.choosing import _change
+from tribodyn.cli.options import _change
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.workbench.variant import Origin

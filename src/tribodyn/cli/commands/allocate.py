@@ -5,9 +5,8 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import kept_runs
+from tribodyn.cli.options import add_case_arguments, chosen_case, kept_runs
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:

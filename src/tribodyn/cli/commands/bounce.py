@@ -6,8 +6,8 @@ from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.options import add_case_arguments, chosen_case
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 

@@ -6,8 +6,8 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.options import add_case_arguments, chosen_case
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import REPORT
+from tribodyn.cli.options import REPORT
 from tribodyn.cli.tables import LEFT_OUT, grey
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, brief, on_one_line

@@ -9,9 +9,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import FIGURES, kept_runs
+from tribodyn.cli.options import FIGURES, add_case_arguments, chosen_case, kept_runs
 
 if TYPE_CHECKING:
     from tribodyn.studies import OutputShares

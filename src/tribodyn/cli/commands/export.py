@@ -33,8 +33,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def execute(args: Namespace) -> int:
     """Write the table."""
     from tribodyn.mechanisms.results import read
-    from tribodyn.results.atomic import write_bytes
     from tribodyn.results.columns import table
+    from tribodyn.results.store import write_bytes
 
     names = [name.strip() for name in args.csv.split(",") if name.strip()]
     if not names:

@@ -7,9 +7,8 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import kept_runs
+from tribodyn.cli.options import add_case_arguments, chosen_case, kept_runs, typed, without_quotes
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 

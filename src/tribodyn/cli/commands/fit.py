@@ -7,10 +7,9 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import last_words
+from tribodyn.cli.options import OutputDirectory, add_case_arguments, chosen_case, typed, without_quotes
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -75,7 +74,7 @@ def execute(args: Namespace) -> int:
     """Fit, write the files and print the fitted keys."""
     import numpy as np
 
-    from tribodyn.results.atomic import write_text
+    from tribodyn.results.store import write_text
     from tribodyn.studies import posterior
     from tribodyn.studies.calibration import Calibration, VariedKey
     from tribodyn.studies.fit_report import as_json, fitted_keys, save, statements

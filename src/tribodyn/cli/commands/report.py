@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.console import Console, complain, show_json
-from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import last_words
+from tribodyn.cli.options import REPORT, OutputDirectory
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import read_regular
@@ -73,8 +73,7 @@ def _mend(dataset: xr.Dataset, directory: Path) -> None:
     A case file that is there stays as it is: somebody may have edited it on the way to the next run.
     """
     from tribodyn.mechanisms.results import summarise
-    from tribodyn.results.atomic import write_text
-    from tribodyn.results.store import CASE, RESULT, SUMMARY, case_text, summary_text
+    from tribodyn.results.store import CASE, RESULT, SUMMARY, case_text, summary_text, write_text
 
     if not (directory / RESULT).is_file():
         return

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
 from tribodyn.cli.interrupt import last_words
+from tribodyn.cli.options import OutputDirectory
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 

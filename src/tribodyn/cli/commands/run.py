@@ -9,10 +9,9 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case
 from tribodyn.cli.console import CYCLES, Console, Progress, complain, progress, show_json, stage
-from tribodyn.cli.directory import REPORT, RESULT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.options import REPORT, RESULT, OutputDirectory, add_case_arguments, chosen_case
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
 from tribodyn.cli.tables import in_words

@@ -3,8 +3,8 @@
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
 from tribodyn.cli.console import show_json
+from tribodyn.cli.options import add_case_arguments, changes, chosen_case
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 

@@ -6,9 +6,8 @@ import math
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import kept_runs
+from tribodyn.cli.options import add_case_arguments, chosen_case, kept_runs, typed, without_quotes
 
 if TYPE_CHECKING:
     from tribodyn.studies import Slope

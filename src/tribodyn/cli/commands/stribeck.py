@@ -3,8 +3,8 @@
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from tribodyn.cli.choosing import add_case_arguments, chosen_case, without_quotes
 from tribodyn.cli.console import Console, show_json
+from tribodyn.cli.options import add_case_arguments, chosen_case, without_quotes
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 

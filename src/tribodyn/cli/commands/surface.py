@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.cli.console import Console, complain, show_json
-from tribodyn.cli.directory import FIGURES, OutputDirectory
 from tribodyn.cli.interrupt import last_words
+from tribodyn.cli.options import FIGURES, OutputDirectory
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -131,7 +131,7 @@ def _drawn(surface: MeasuredSurface, others: list[MeasuredSurface]) -> Figure:
 def _save(folder: Path, outcome: dict[str, Any], block: str, figure: Figure) -> None:
     """Write numbers, block and figure."""
     from tribodyn.figures.chart import save_png
-    from tribodyn.results.atomic import write_text
+    from tribodyn.results.store import write_text
 
     (folder / FIGURES).mkdir(exist_ok=True)
     save_png(figure, folder / FIGURES / _FIGURE)

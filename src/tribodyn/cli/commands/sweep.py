@@ -12,11 +12,18 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case, typed, without_quotes
 from tribodyn.cli.console import POINTS, Console, Progress, complain, progress, show_json
-from tribodyn.cli.directory import POINTS as POINTS_FOLDER
-from tribodyn.cli.directory import REPORT, OutputDirectory
 from tribodyn.cli.interrupt import Interruption, last_words
+from tribodyn.cli.options import POINTS as POINTS_FOLDER
+from tribodyn.cli.options import (
+    REPORT,
+    OutputDirectory,
+    add_case_arguments,
+    changes,
+    chosen_case,
+    typed,
+    without_quotes,
+)
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw, draw_points
 from tribodyn.cli.tables import sweep_in_words
@@ -143,7 +150,7 @@ def _judge(dataset: xr.Dataset, path: Path) -> None:
     """Add to the record which share of the points keeps each limit, and on what the numbers depend."""
     from dataclasses import asdict
 
-    from tribodyn.results.atomic import write_text
+    from tribodyn.results.store import write_text
     from tribodyn.studies import sensitivities, shares
     from tribodyn.studies.sweep import RECORD
 

@@ -7,9 +7,8 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tribodyn.cli.choosing import add_changes, changes, typed, without_quotes
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.directory import OutputDirectory
+from tribodyn.cli.options import OutputDirectory, add_changes, changes, typed, without_quotes
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 

@@ -6,9 +6,9 @@ from argparse import ArgumentParser, Namespace
 from contextlib import ExitStack
 from typing import Final
 
-from tribodyn.cli.choosing import add_case_arguments, changes, chosen_case
 from tribodyn.cli.console import Console, complain, show_json
 from tribodyn.cli.interrupt import Interruption
+from tribodyn.cli.options import add_case_arguments, changes, chosen_case
 from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
 

@@ -7,8 +7,7 @@ from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.guide import Guide, Wall
 from tribodyn.joints.shapes.mesh import Mesh
 from tribodyn.joints.shapes.rings import Annulus
-from tribodyn.joints.shapes.round import Ball, Sphere
-from tribodyn.joints.shapes.slot import Slot
+from tribodyn.joints.shapes.round import Ball, Slot, Sphere
 from tribodyn.joints.shapes.surface import Points, Shape, Surface
 
 #: Made with their sizes by name.

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from tribodyn.core.errors import InputError
-from tribodyn.joints.form import Form
+from tribodyn.joints.rows import Form
 from tribodyn.joints.shapes.rings import Annulus, Rings, with_edges
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive
 from tribodyn.kernels.joints.surface.bulk import RING

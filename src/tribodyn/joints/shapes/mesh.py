@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.data import Row

@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.splines import gauss_legendre_between
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points

@@ -8,13 +8,12 @@ Where a node is about to cavitate the derivative has a kink, of the size of that
 
 import math
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.arrays import clear
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve
 from tribodyn.kernels.film.data import HALF_SOMMERFELD, JFO, FilmData, FilmMemory
 from tribodyn.kernels.film.gap import squeeze_rate
 from tribodyn.kernels.film.jfo import couette_by_fill, filled_column, transport_adjoint
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import clear, kernel
 
 
 @kernel

@@ -6,7 +6,7 @@ one; otherwise the emptiest column becomes a border, numbered last. The matrix i
 definite and an M-matrix: no pivoting.
 """
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.data import SIDES, BandSystem, FilmFields, FlagArray
 from tribodyn.kernels.jit import kernel
 

@@ -7,7 +7,7 @@ M-matrix, for which this converges from any first set and, after the first solve
 evaluation.
 """
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.band import assemble, factorise, number_unknowns, solve_one
 from tribodyn.kernels.film.data import (
     CONVERGED,

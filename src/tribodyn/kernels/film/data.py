@@ -5,7 +5,7 @@ from typing import Annotated, Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix, IntMatrix
+from mebdf.arrays import FloatArray, FloatCube, FloatMatrix, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.jit import inlined
 

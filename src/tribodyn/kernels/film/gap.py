@@ -11,9 +11,9 @@ are taken where they are needed, at nodes and at faces, not averaged.
 
 import math
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.kernels.film.attitude import groove_direction
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.data import CONVERGED, OUT_OF_RANGE, FilmData, FilmFields, FlowTable
+from tribodyn.kernels.film.report import groove_direction
 from tribodyn.kernels.jit import inlined, kernel
 
 LEAST_SEPARATION = 0.5  #: Flow factors and h³ see max(h, σ/2): contact reaches below h = 0.
@@ -107,7 +107,7 @@ def _turn_grid(film: FilmData, fields: FilmFields, u: FloatArray) -> None:
 
 @kernel
 def _lean(film: FilmData, fields: FilmFields, u: FloatArray) -> None:
-    """Fill the second-order lever arms r s, see ``attitude``."""
+    """Fill the second-order lever arms r s, see ``report``."""
     r = film.constants.radius
     for i in range(film.columns.size):
         column = fields.columns[i]

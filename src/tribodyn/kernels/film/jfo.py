@@ -11,7 +11,7 @@ The groove supplies oil: f = 1 and p = 0 there. The film is steady: where oil is
 over time, f would be a state.
 """
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.film.data import (
     CONVERGED,
     NO_CONVERGENCE,

@@ -6,7 +6,7 @@ solved on half its length.
 
 import math
 
-from tribodyn.core.arrays import FloatArray, FloatMatrix
+from mebdf.arrays import FloatArray, FloatMatrix
 from tribodyn.kernels.film.adjoint import (
     couette_scale,
     fill_chart,
@@ -14,11 +14,11 @@ from tribodyn.kernels.film.adjoint import (
     friction_load,
     solve_adjoints,
 )
-from tribodyn.kernels.film.attitude import chart_of, from_chart, turn_with_groove
 from tribodyn.kernels.film.cavitation import solve_pressure
 from tribodyn.kernels.film.data import CONVERGED, HALF_SOMMERFELD, JFO, FilmData, FilmMemory
 from tribodyn.kernels.film.gap import evaluate_gap
 from tribodyn.kernels.film.jfo import filled_column, solve_transport
+from tribodyn.kernels.film.report import chart_of, from_chart, turn_with_groove
 from tribodyn.kernels.jit import entry, kernel
 
 

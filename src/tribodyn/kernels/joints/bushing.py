@@ -1,19 +1,26 @@
-"""A bushing and its trunnion: a surface of ``kernels/joints/surface`` in coordinates of its own.
+"""A bushing and its trunnion, and a thrust collar that rests on the rim of its bushing.
 
 A pose counts the tilts of the trunnion as angles, and as the source paper has it, friction opposes the slip
 around the axis alone, with rates of the tilts for angular velocities, and moments do work on the slope of the
 axis. A node lies at −r_j (cos θ, sin θ), so that θ is the direction of the pressure on the trunnion.
+
+Tilted, it rests on the side to which it leans, at the radius r_t; turning, it rubs there:
+
+    M = N r_t (−φ_x/φ, −φ_y/φ, −s μ),    φ = √(φ_x² + φ_y² + φ_0²),
+
+with the axial force N, which the mechanism knows, and the direction s of the rotation. The corner at φ = 0 is
+rounded within φ_0. The collar cannot pull: a mechanism lets it go where N would be negative.
 """
 
+import math
 from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 
+from mebdf.arrays import FloatArray, FloatMatrix
 from mebdf.kernels.elementary import tan
-from tribodyn.core.arrays import FloatArray, FloatMatrix
-from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import entry, kernel
+from tribodyn.core.quantities import Quantity, Record, of_table
+from tribodyn.kernels.jit import clear, entry, kernel
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.joints.pose import PHI, D, Pose, V, W
 from tribodyn.kernels.joints.surface import joint as surfaces
@@ -130,3 +137,41 @@ def pressure_field(
     """Fill ``pressure`` (n_z + 2, n_theta) with the contact pressure P_c [Pa]; points have none."""
     _look(joint, memory, pose)
     surfaces.fill_pressure(joint.surface, _JOINT, memory.surface, pressure.reshape(pressure.size))
+
+
+TILT_FLOOR: Final = 1.0e-6  #: φ_0 [rad].
+
+CONSTANTS: Final = (
+    Quantity("radius", "m", "radius r_t of the collar", ()),
+    Quantity("friction", "m", "coefficient of friction times that radius", ()),
+)
+EXTREMES: Final = (Quantity("collar_lift_off_time", "s", "time during which the collar carries nothing", ()),)
+Collar: Final = of_table(CONSTANTS)
+Extremes: Final = of_table(EXTREMES)
+
+
+@kernel
+def moments(collar: Record, phi_x: float, phi_y: float, direction: float) -> tuple[float, float, float]:
+    """Return M_x, M_y and M_z per unit of axial force [m] at a tilt [rad].
+
+    About X and Y the collar answers a tilt with the opposite moment, whatever the hand in which both count.
+    """
+    tilt = math.sqrt(phi_x * phi_x + phi_y * phi_y + TILT_FLOOR * TILT_FLOOR)
+    return -collar.radius * phi_x / tilt, -collar.radius * phi_y / tilt, -direction * collar.friction
+
+
+@kernel
+def stiffness(collar: Record, phi_x: float, phi_y: float, force: float) -> tuple[float, float, float]:
+    """Return ∂M_x/∂φ_x, ∂M_y/∂φ_y and ∂M_x/∂φ_y = ∂M_y/∂φ_x [N m/rad] under an axial force [N]."""
+    tilt = math.sqrt(phi_x * phi_x + phi_y * phi_y + TILT_FLOOR * TILT_FLOOR)
+    load = collar.radius * force
+    along_x = -load * (tilt * tilt - phi_x * phi_x) / tilt**3
+    along_y = -load * (tilt * tilt - phi_y * phi_y) / tilt**3
+    return along_x, along_y, load * phi_x * phi_y / tilt**3
+
+
+@kernel
+def note_lift_off(extremes: Record, h: float, force: float) -> None:
+    """Note a part of an accepted step of length ``h`` [s] with the axial force at its end [N]."""
+    if force == 0.0:
+        extremes.collar_lift_off_time += h

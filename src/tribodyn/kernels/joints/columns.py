@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.jit import inlined, kernel
 
 PART: Final = 256  #: Nodes in a part: its columns stay in the near caches, and few parts are begun.

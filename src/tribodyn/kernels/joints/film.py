@@ -12,14 +12,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from mebdf.kernels.arrays import copy
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
+from mebdf.kernels.jit import copy
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.data import CONVERGED, FilmData, FilmMemory
 from tribodyn.kernels.film.report import Peaks, Report, film_leakage, film_peak
 from tribodyn.kernels.film.wrench import derivatives_in_chart, wrench_in_chart
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import clear, kernel
 from tribodyn.kernels.joints.pose import W
 from tribodyn.kernels.joints.surface.joint import add_derivatives
 from tribodyn.kernels.joints.surface.station import derivatives_at_origin, fill_station, pressure_at_origin

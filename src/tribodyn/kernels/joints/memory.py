@@ -2,11 +2,10 @@
 
 from typing import Annotated, Final, NamedTuple
 
+from mebdf.arrays import FloatArray, FloatMatrix
 from mebdf.kernels.elementary import hypot
-from tribodyn.core.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import kernel, new_record
 from tribodyn.kernels.joints.pose import N_MOTION, N_WRENCH, Pose
 from tribodyn.kernels.joints.quantities import Extremes, Report
 from tribodyn.kernels.joints.surface.data import SurfaceData

@@ -3,7 +3,7 @@
 Without branches, as the look-up: loops over nodes are to take four at once.
 """
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints import columns

@@ -13,10 +13,9 @@ and φ = 12 B/(S l²) of the bending and shear rigidities B, S. Rates of strains
 
 import math
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import clear, kernel
 from tribodyn.kernels.mechanism.data import DAMPING, SLOPES
 
 _STRAIN = 6

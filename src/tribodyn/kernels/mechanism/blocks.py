@@ -10,7 +10,7 @@ inside the blocks on the diagonal, where these are not positive definite, and no
 
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from mebdf.arrays import FloatArray, IntArray
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.lanes import WIDTH, load, spread, store
 from tribodyn.kernels.mechanism.data import COLUMN, N, Pattern

@@ -3,7 +3,7 @@
 import math
 from typing import Annotated, Any
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY, BodyNow

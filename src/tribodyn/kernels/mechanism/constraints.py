@@ -26,8 +26,8 @@ Of an element with a force law F the equation is λ = F(Φ, Φ̇) instead.
 
 import math
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import cos, sin
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import Signals, evaluate
 from tribodyn.kernels.jit import kernel

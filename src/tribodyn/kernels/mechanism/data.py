@@ -14,15 +14,15 @@ One file because these records hold each other.
 
 from typing import Annotated, Final, NamedTuple
 
+from mebdf.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from mebdf.compiled.layouts import STACKED
-from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.actions import Signals, Term
 from tribodyn.kernels.film.data import FilmData, FilmMemory
 from tribodyn.kernels.joints.film import Oil
 from tribodyn.kernels.joints.surface.data import SurfaceData
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
-from tribodyn.kernels.joints.surface.pose import Pose
+from tribodyn.kernels.joints.surface.tilt import Pose
 
 N: Final = 6
 #: Unknowns of a node of the linear systems, and the numbers that a column of them takes up.

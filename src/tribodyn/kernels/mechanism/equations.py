@@ -5,7 +5,7 @@ See ``kernels/mechanism/solution.py`` for what is solved.
 
 from typing import Annotated, Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import entry, inlined, kernel
 from tribodyn.kernels.lanes import WIDTH, store, zeros

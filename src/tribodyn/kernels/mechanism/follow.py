@@ -2,7 +2,7 @@
 
 from typing import Any, Final
 
-from tribodyn.core.arrays import FloatArray, FloatCube, FloatMatrix
+from mebdf.arrays import FloatArray, FloatCube, FloatMatrix
 from tribodyn.kernels.actions import Signals
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.bodies import collect

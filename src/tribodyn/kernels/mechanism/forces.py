@@ -8,13 +8,12 @@ stiff.
 import math
 from typing import Annotated, Any
 
+from mebdf.arrays import FloatArray
 from mebdf.compiled.layouts import STACKED
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import Signals, add_following, add_terms, evaluate, norm, oppose, oppose_along
-from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.film.data import FilmData, FilmMemory, film_at, memory_at
-from tribodyn.kernels.jit import entry, inlined, kernel
+from tribodyn.kernels.jit import clear, entry, inlined, kernel
 from tribodyn.kernels.joints.film import Oil, fill_report, film_wrench
 from tribodyn.kernels.joints.surface import joint as surfaces
 from tribodyn.kernels.joints.surface.data import SurfaceData

@@ -3,8 +3,8 @@
 import math
 from typing import Any, Final
 
-from mebdf.kernels.arrays import copy
-from tribodyn.core.arrays import FloatArray, FloatMatrix
+from mebdf.arrays import FloatArray, FloatMatrix
+from mebdf.kernels.jit import copy
 from tribodyn.kernels.film.data import film_at, memory_at
 from tribodyn.kernels.film.report import film_pressure
 from tribodyn.kernels.jit import entry, inlined, kernel
@@ -25,9 +25,8 @@ from tribodyn.kernels.mechanism.data import (
     Now,
     Parts,
 )
-from tribodyn.kernels.mechanism.derivatives import fill_derivatives
 from tribodyn.kernels.mechanism.equations import has_law
-from tribodyn.kernels.mechanism.jacobian import fill_gyroscopic, fill_jacobian
+from tribodyn.kernels.mechanism.jacobian import fill_derivatives, fill_gyroscopic, fill_jacobian
 from tribodyn.kernels.mechanism.law import remember
 from tribodyn.kernels.mechanism.newton import factorise, fill_entries, solve
 from tribodyn.kernels.mechanism.observe import fill_row, watch
@@ -135,7 +134,7 @@ def advance(t_a: float, t_b: float, y_b: FloatArray, data: MechanismData, memory
 
 @entry
 def observe(t: float, y: FloatArray, data: MechanismData, memory: MechanismMemory, row: FloatArray) -> None:
-    """Fill ``row``, see ``kernels/mechanism/quantities.py``, with what stands settled since ``advance``."""
+    """Fill ``row``, see ``kernels/mechanism/observe.py``, with what stands settled since ``advance``."""
     fill_row(data, memory, row)
 
 

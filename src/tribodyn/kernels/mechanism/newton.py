@@ -22,7 +22,7 @@ and six compliances. ``factorise`` puts γ and the entries before the blocks, so
 
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from mebdf.arrays import FloatArray, IntArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism import blocks as algebra

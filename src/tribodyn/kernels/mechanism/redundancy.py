@@ -3,7 +3,7 @@
 import math
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray, FloatMatrix
+from mebdf.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import entry, kernel
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts

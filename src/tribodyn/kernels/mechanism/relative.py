@@ -16,11 +16,10 @@ follow.
 import math
 from typing import Any, Final
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import atan2
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import clear, kernel
 from tribodyn.kernels.mechanism.vectors import (
     cross,
     cross_put,

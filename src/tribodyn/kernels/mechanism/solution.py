@@ -27,8 +27,8 @@ One file because all of these steps share the factors of one linear system.
 import math
 from typing import Annotated, Final
 
+from mebdf.arrays import FloatArray, FloatCube
 from mebdf.kernels.elementary import hypot
-from tribodyn.core.arrays import FloatArray, FloatCube
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import Signals
 from tribodyn.kernels.jit import entry, inlined, kernel

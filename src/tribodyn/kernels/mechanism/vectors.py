@@ -1,6 +1,6 @@
 """Products of small matrices, and with the matrices [y]× of cross products."""
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.jit import kernel
 
 

@@ -3,12 +3,12 @@
 import math
 from typing import Annotated, Final
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import cos, sin
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import NONE, evaluate, held
 from tribodyn.kernels.jit import entry, inlined, kernel
-from tribodyn.kernels.joints.paper import fill_pose
+from tribodyn.kernels.joints.pose import fill_pose
 from tribodyn.kernels.vsv.data import TIME, Mechanism, VsvData, VsvMemory
 
 

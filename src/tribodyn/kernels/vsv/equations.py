@@ -7,17 +7,16 @@ following in translation, rotation of the vane about the pin, and the two tilts 
 of the lever force. In ``printed`` they are the coefficients that Appendix 2 prints.
 """
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import cos, sin, tanh
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import add_terms, follow
-from tribodyn.kernels.arrays import clear
 from tribodyn.kernels.dense import solve_in_place
-from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints import collar as thrust
+from tribodyn.kernels.jit import clear, inlined, kernel
+from tribodyn.kernels.joints import bushing as thrust
 from tribodyn.kernels.joints.bushing import wrench, wrench_and_jacobian
-from tribodyn.kernels.joints.paper import from_jacobian, from_wrench
-from tribodyn.kernels.vsv import layout as at
+from tribodyn.kernels.joints.pose import from_jacobian, from_wrench
+from tribodyn.kernels.vsv import data as at
 from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import (
     AIR_M,

@@ -5,22 +5,20 @@ motion alone, q̇ᵀ(N q̈ − Q), with N = Σ m_r δr δrᵀ: forces on the fou
 N q̇.
 """
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import TIME, add_following
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.bushing import report, slide
-from tribodyn.kernels.joints.collar import note_lift_off
+from tribodyn.kernels.jit import clear, inlined, kernel
+from tribodyn.kernels.joints.bushing import note_lift_off, report, slide
 from tribodyn.kernels.joints.memory import fill_watched, note_extremes
-from tribodyn.kernels.joints.paper import from_report
+from tribodyn.kernels.joints.pose import from_report
 from tribodyn.kernels.ledger import LAST, MOMENTUM, NOW, POSITION, RATE, SPEED, SWING, swings
 from tribodyn.kernels.ledger import add_part as add_works
 from tribodyn.kernels.ledger import begin as begin_works
 from tribodyn.kernels.peaks import begin as begin_peaks
 from tribodyn.kernels.peaks import note as note_peaks
 from tribodyn.kernels.peaks import resume as resume_peaks
-from tribodyn.kernels.vsv import layout as at
+from tribodyn.kernels.vsv import data as at
 from tribodyn.kernels.vsv.closure import place, vane_attitude
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y, BEND_X, BEND_Y, VsvData, VsvMemory
 from tribodyn.kernels.vsv.equations import drive_moment, set_up, solve_accelerations

@@ -9,13 +9,12 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import atan2, cos, sin, tan
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.actions import evaluate, held
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv import layout as at
+from tribodyn.kernels.jit import clear, kernel
+from tribodyn.kernels.vsv import data as at
 from tribodyn.kernels.vsv.closure import ring_end, sinusoid, vane_attitude
 from tribodyn.kernels.vsv.data import CRANK, TIME, VsvData
 

@@ -7,11 +7,11 @@ rows of the motion table like those of the other formulations; :func:`add_printe
 
 import math
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import atan2, cos, sin
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.vsv import layout as at
+from tribodyn.kernels.vsv import data as at
 from tribodyn.kernels.vsv.data import AIR_X
 
 

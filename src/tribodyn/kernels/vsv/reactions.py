@@ -6,7 +6,7 @@ drag link in the plane of the ring: two equations.
 
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.vsv import layout as at
+from tribodyn.kernels.vsv import data as at
 from tribodyn.kernels.vsv.data import AIR_X, AIR_Y
 from tribodyn.kernels.vsv.equations import lever_lift
 from tribodyn.kernels.vsv.motion import ring_centre

@@ -14,8 +14,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.signals import AngleSignal, PositionSignal
-from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanism.assembly.assembly import Assembly

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached

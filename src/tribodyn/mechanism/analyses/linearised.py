@@ -13,8 +13,8 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.core.stopping import ask
+from mebdf.arrays import FloatArray
+from tribodyn.core.problem import ask
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY

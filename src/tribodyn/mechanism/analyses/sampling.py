@@ -14,8 +14,8 @@ from typing import Any, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.loads import OwnFunction
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure
 from tribodyn.core.problem import Problem
 from tribodyn.mechanism.assembly.output_values import Output, motion_of

@@ -19,7 +19,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.bodies import collect

@@ -25,10 +25,10 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
+from tribodyn.joints.point_contact import FlatWalls, resting
 from tribodyn.joints.shapes import Cylinder, Sphere
-from tribodyn.joints.touch import FlatWalls, resting
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_global_axes, motion_of
 from tribodyn.mechanism.assembly.output_values import Output

@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place

@@ -7,13 +7,13 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import demand, unit
 from tribodyn.cases.groups import Surfaces
 from tribodyn.cases.joint_keys import CONFORMAL, NOTHING
 from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
 from tribodyn.contact.bulk import elastic_bodies
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.joints import Friction
 from tribodyn.joints.clearances import Clearance, contact_table

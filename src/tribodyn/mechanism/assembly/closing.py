@@ -11,7 +11,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism import solution
 from tribodyn.kernels.mechanism.bodies import move, place

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from mebdf.arrays import FloatArray, IntArray
 from tribodyn.kernels import dense
 
 _BODY: Final = 6  #: Columns of a body.

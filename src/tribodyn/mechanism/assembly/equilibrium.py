@@ -17,8 +17,8 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.core.stopping import ask
+from mebdf.arrays import FloatArray, IntArray
+from tribodyn.core.problem import ask
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, move, place
 from tribodyn.kernels.mechanism.data import (

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.problem import CompiledFunctions, LinearSolver, Problem
 from tribodyn.joints.clearances import places
 from tribodyn.kernels import dense
@@ -14,13 +14,13 @@ from tribodyn.kernels.joints.surface.memory import DEPTH, LARGEST, LEVER, RATE
 from tribodyn.kernels.mechanism import functions, newton
 from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
-from tribodyn.kernels.mechanism.quantities import N_BODY, N_COUPLING, N_WHOLE
+from tribodyn.kernels.mechanism.observe import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.ordering import n_blocks
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanisms.bushing import Carried
 from tribodyn.mechanisms.shaft_loads import WAVE_STEPS
-from tribodyn.mechanisms.wear_state import Carried
 
 FUNCTIONS: Final = CompiledFunctions(**functions.FUNCTIONS)
 #: States of a body; the angular velocity is in its own axes.

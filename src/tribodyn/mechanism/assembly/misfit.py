@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import DIRECTION, POINT

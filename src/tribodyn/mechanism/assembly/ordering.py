@@ -16,7 +16,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tribodyn.core.arrays import IntArray
+from mebdf.arrays import IntArray
 from tribodyn.kernels.mechanism.blocks import DIVIDE, INVERT, INVERT_DEFINITE, SUBTRACT
 from tribodyn.kernels.mechanism.data import NONE, Pattern
 from tribodyn.kernels.mechanism.newton import N_BODY, N_COMPLIANCE, N_PAIR, N_ROW

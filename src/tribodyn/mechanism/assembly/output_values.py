@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import unit
-from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
 from tribodyn.mechanism.assembly.skeleton import rotated

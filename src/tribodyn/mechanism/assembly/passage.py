@@ -12,8 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.digests import digest
-from tribodyn.core.remembered import Remembered
+from tribodyn.core.remembered import Remembered, digest
 from tribodyn.kernels.mechanism.data import ANGLE
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import CLOSES, System

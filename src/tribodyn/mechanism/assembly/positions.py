@@ -13,7 +13,7 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.errors import IntegrationFailure, Stopped
 from tribodyn.core.problem import Problem, Solution, Statistics
 from tribodyn.integrate import INTERRUPTED

@@ -7,13 +7,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import unit
-from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance, Place, places
 from tribodyn.joints.clearances import assemble as surfaces
 from tribodyn.kernels import dense
-from tribodyn.kernels.arrays import new_record, new_records
 from tribodyn.kernels.film.data import FilmData
+from tribodyn.kernels.jit import new_record, new_records
 from tribodyn.kernels.joints.film import new_oil
 from tribodyn.kernels.joints.surface.memory import new_memory as memory_of_surfaces
 from tribodyn.kernels.mechanism import data as kinds

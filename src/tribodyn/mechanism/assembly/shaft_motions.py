@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray, IntArray
+from mebdf.arrays import FloatArray, IntArray
 from tribodyn.kernels import dense
 from tribodyn.kernels.joints.surface.data import GAP, NORMAL, POSITION, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import LINE, NO_TILT

@@ -8,10 +8,10 @@ from typing import Final, TypeAlias
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import unit
 from tribodyn.cases.fields import Vector
 from tribodyn.cases.load import parse
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase

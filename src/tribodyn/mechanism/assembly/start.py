@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.decompositions import shortest

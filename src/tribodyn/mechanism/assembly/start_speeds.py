@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT, least_squares, null_space

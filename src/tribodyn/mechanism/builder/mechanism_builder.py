@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 
 from tribodyn.cases.case import build
-from tribodyn.cases.entry import Entry
+from tribodyn.cases.fields import Entry
 from tribodyn.cases.keys import Key, keys_of
 from tribodyn.cases.load import flat
 from tribodyn.cases.tables import expanded

@@ -12,7 +12,6 @@ from tribodyn.mechanism.members import members_of
 #: Modules of this package that hold elements.
 NAMES: Final = (
     "gear",
-    "rack",
     "screw",
     "distance",
     "nonlinear_spring",

@@ -18,11 +18,11 @@ from typing import ClassVar, Final, Literal, Self
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import NamedGroup, demand, unit
 from tribodyn.cases.fields import Vector, name, names, quantity, vector
 from tribodyn.cases.signals import ForceSignal, TorqueSignal
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.law import LawFunction

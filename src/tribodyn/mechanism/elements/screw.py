@@ -21,13 +21,13 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import names, number, quantity
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.elements import element as base
-from tribodyn.mechanism.elements.flanks import Flanks
 from tribodyn.mechanism.elements.joint_friction import friction_law
+from tribodyn.mechanism.elements.teeth import Flanks
 
 
 class Screw(Flanks):

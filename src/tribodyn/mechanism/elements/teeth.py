@@ -1,4 +1,4 @@
-"""Teeth: backlash and losses, which gears and racks have alike.
+"""Teeth and threads: backlash, losses, and flanks that touch one after the other.
 
 With backlash j the sum of the legs is no constraint but the path of the teeth along their pitch lines, zero
 in the middle of the gap. Beyond ±j/2 a flank is in contact, by the law of a limit stop.
@@ -13,14 +13,56 @@ from typing import Self
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import demand
-from tribodyn.cases.fields import number, quantity
-from tribodyn.core.arrays import FloatArray
+from tribodyn.cases.fields import choice, number, quantity, switch
 from tribodyn.kernels import dense
 from tribodyn.mechanism.elements import element as base
-from tribodyn.mechanism.elements.flanks import Flanks
+from tribodyn.mechanism.elements.element import ElementKeys, ForceLaw
 from tribodyn.mechanism.elements.joint_friction import friction_law
+from tribodyn.mechanism.elements.stop import LEAST_RATE, RESTITUTION, damping_of, one_sided
+
+
+class Flanks(ElementKeys):
+    """Base of the keys of elements whose flanks may have backlash."""
+
+    backlash: float | None = quantity(None, "play of the flanks; none without it", "", ge=0, example="0.1 mm")
+    damping_factor: str = choice(
+        "calibrated",
+        "how damping of flanks with backlash follows from restitution",
+        "assumed",
+        family="tribodyn.contact:DAMPING_FACTORS",
+    )
+    restitution: float = number(
+        RESTITUTION, "coefficient of restitution of flanks with backlash", "manual, elements", gt=0, le=1
+    )
+    ideal: bool = switch(False, "treat the flanks as without backlash", "assumed")
+
+    @property
+    def has_play(self) -> bool:
+        """Whether its flanks have backlash."""
+        return self.backlash is not None and not self.ideal
+
+    @property
+    def without_play(self) -> Self:
+        """The element without backlash."""
+        return self.model_copy(update={"backlash": None})
+
+    def flank_law(self, stiffness: float) -> ForceLaw:
+        """Return the law of one flank of a stiffness [N/m], which touches after half the backlash."""
+        return ForceLaw(
+            one_sided,
+            {
+                "at": 0.5 * (self.backlash or 0.0),
+                "side": 1.0,
+                "exponent": 1.0,
+                "scale": stiffness,
+                "damping": damping_of(self.damping_factor, self.restitution),
+                "least_rate": LEAST_RATE,
+            },
+        )
+
 
 #: Forces that push both wheels apart, over the tooth force, shape (3,) each.
 Pushes = tuple[FloatArray, FloatArray]

@@ -7,8 +7,8 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import AXES
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.figures.chart import COLOURS
 from tribodyn.figures.style import INK, caption, finish, sheet

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures.chart import Family
 from tribodyn.figures.style import GREY, INK, PALE, SMALL, VERMILION, finish, note, sheet
 from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view

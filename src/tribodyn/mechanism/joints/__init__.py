@@ -10,7 +10,7 @@ from typing import Final
 from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import members_of
 
-NAMES: Final = ("ideal", "oldham", "spring_damper", "beam")  #: Modules of this package.
+NAMES: Final = ("ideal", "elastic")  #: Modules of this package.
 
 #: Every type of joint by its name.
 JOINTS: Final[dict[str, JointType]] = {kind.NAME: kind() for kind in members_of(__name__, NAMES, JointType)}

@@ -1,10 +1,14 @@
-"""Joints that are only their constraint equations: lower pairs, a ball on a pin, universal, rigid."""
+"""Joints that are only their constraint equations: lower pairs, a ball on a pin, universal, rigid.
+
+Its disc slides across one shaft in one direction and across the other in another. Without the mass of the
+disc it leaves the two displacements across the axis free and transmits the torque.
+"""
 
 from typing import ClassVar
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.kernels.mechanism.data import DIRECTION
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.joints.joint_type import ALIGNED, AT_POINT, NO_TURN, ON_AXIS, JointType, Row
@@ -119,3 +123,12 @@ class Universal(JointType):
         """Return the axes of the second body: x is the axis that it holds."""
         across = frame(second, first)
         return np.column_stack([across[:, 2], -across[:, 1], across[:, 0]])
+
+
+class Oldham(JointType):
+    """A coupling of parallel shafts."""
+
+    NAME: ClassVar[str] = "oldham"
+    MEANING: ClassVar[str] = "slides across `axis` and does not turn"
+    ROWS: ClassVar[tuple[Row, ...]] = (AT_POINT[2], *ALIGNED, NO_TURN)
+    AXIS: ClassVar[str] = "axis of the shafts"

@@ -6,8 +6,8 @@ body against the first, in axes of which z is the axis of the joint.
 
 from typing import Any, ClassVar, Final
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import NamedGroup
-from tribodyn.core.arrays import FloatArray
 from tribodyn.kernels.mechanism.data import DIRECTION, POINT
 from tribodyn.mechanism.frames import frame
 

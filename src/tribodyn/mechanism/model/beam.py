@@ -5,10 +5,10 @@ from typing import ClassVar, Final, Literal
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import NamedGroup, demand
 from tribodyn.cases.fields import Numbers, Vector, choice, count, number, quantity, series, vector
 from tribodyn.cases.materials import MATERIALS
-from tribodyn.core.arrays import FloatArray
 
 SAME: Final = 1.0e-9  #: Distance over the length of a beam at which two places are one.
 

@@ -14,9 +14,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import demand, group_at
 from tribodyn.cases.keys import Value
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.splines import gauss_lobatto
 from tribodyn.kernels import dense
 from tribodyn.mechanism.frames import frame

@@ -5,9 +5,9 @@ from typing import ClassVar, Final, Literal
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import NamedGroup, demand, dot, unit
 from tribodyn.cases.fields import Numbers, Vector, choice, file, number, quantity, series, vector
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.model.beam import BeamBodyKeys
 from tribodyn.mechanism.model.parts import POINT
 from tribodyn.mechanism.model.solids import NEEDED, SIZES, mesh_solid

@@ -13,11 +13,22 @@ from typing import ClassVar, Final, Literal, TypeAlias
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import NamedGroup, demand, demand_known, group_at, unit
-from tribodyn.cases.entry import Entry, read_entry
-from tribodyn.cases.fields import Vector, choice, count, file, name, names, quantity, switch, vector
+from tribodyn.cases.fields import (
+    Entry,
+    Vector,
+    choice,
+    count,
+    file,
+    name,
+    names,
+    quantity,
+    read_entry,
+    switch,
+    vector,
+)
 from tribodyn.cases.keys import Key, Value
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import below
 from tribodyn.kernels import dense
 from tribodyn.mechanism.frames import frame

@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Quantity
 from tribodyn.core.signals import Signal
 from tribodyn.mechanism.model.drives_and_loads import GIVEN, DriveKeys

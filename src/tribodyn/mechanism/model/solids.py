@@ -13,10 +13,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import demand
 from tribodyn.cases.fields import Vector
 from tribodyn.cases.keys import Value
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import below
 from tribodyn.kernels import dense
 

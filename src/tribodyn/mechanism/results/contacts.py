@@ -6,19 +6,17 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import Stopped
+from tribodyn.core.problem import skip
 from tribodyn.core.quantities import Record
-from tribodyn.core.stopping import skip
 from tribodyn.joints.clearances import Clearance, Place, SurfaceLaw, assemble, places, pose_at
-from tribodyn.joints.point_contact import SURFACE
+from tribodyn.joints.point_contact import SURFACE, Touch
 from tribodyn.joints.shapes import Ball, Cylinder, Sphere
-from tribodyn.joints.touch import Touch
-from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
+from tribodyn.kernels.joints.surface.data import GAP, PLASTIC, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
-from tribodyn.kernels.joints.surface.quantities import PLASTIC
 from tribodyn.kernels.joints.surface.tilt import LINE, WHOLE
 from tribodyn.mechanism.frames import frame
 from tribodyn.mechanisms.bushing import loading

@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.tables import keys_in
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.results.reading import column, entries, settled
 from tribodyn.results.summary import KeyResult

@@ -12,10 +12,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints.clearances import Place
+from tribodyn.joints.point_contact import FlatWalls
 from tribodyn.joints.shapes import Surface
-from tribodyn.joints.touch import FlatWalls
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import LINE
 from tribodyn.mechanism.assembly.parts_by_number import Model

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.results import readings
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import column, of_part, peak, rms, settled, sustained, time_mean

@@ -9,11 +9,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.problem import Floats, Following
 from tribodyn.core.quantities import Table, names
 from tribodyn.kernels.film.data import FilmData
-from tribodyn.kernels.mechanism.quantities import BODY, COUPLING, N_WHOLE, OF_SECOND, WHOLE
+from tribodyn.kernels.mechanism.observe import BODY, COUPLING, N_WHOLE, OF_SECOND, WHOLE
 from tribodyn.mechanism.assembly.output_values import MOTION
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
@@ -30,7 +30,7 @@ from tribodyn.mechanism.results.followed import INPUTS, OBSERVED, followed_by
 from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.output_keys import instants_of
-from tribodyn.mechanisms.playback import EVEN
+from tribodyn.mechanisms.workload import EVEN
 
 
 def film_columns(couplings: Mapping[str, FloatArray], model: Model) -> dict[str, FloatArray]:

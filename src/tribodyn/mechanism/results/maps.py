@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.problem import Floats
 from tribodyn.joints.clearances import Place
 

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.results import readings
 from tribodyn.mechanism.results.copies import COPIES
 from tribodyn.mechanism.results.followed import LIMITS

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.joints.clearances import Place
 from tribodyn.joints.shapes import Mesh
 from tribodyn.kernels import dense
@@ -16,7 +16,7 @@ from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, sup
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.assembly.parts_by_number import model_of
-from tribodyn.mechanism.joints.beam import flexibility
+from tribodyn.mechanism.joints.elastic import flexibility
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import GIVEN
 from tribodyn.mechanism.results.followed import coordinate

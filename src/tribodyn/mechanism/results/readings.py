@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.mechanism_protocol import plain
 from tribodyn.results.reading import column, entries, of_part
 from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns

@@ -11,11 +11,11 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.signals import begun
 from tribodyn.joints.clearances import Clearance, Place
+from tribodyn.joints.point_contact import Touch
 from tribodyn.joints.shapes import Surface
-from tribodyn.joints.touch import Touch
 from tribodyn.kernels import dense
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of, material_of

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.results.copies import copies_of, worst

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.results.copies import copies_of, worst
 from tribodyn.results.reading import column, settled
 from tribodyn.results.variables import ERROR_UNITS

@@ -7,18 +7,17 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray, IntArray
-from tribodyn.joints.touch import FlatWalls
+from mebdf.arrays import FloatArray, IntArray
+from tribodyn.joints.point_contact import FlatWalls
 from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections.charts import Shafts
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.views.bushing import Unrolled, best_cut, shares
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over, over_time
-from tribodyn.views.events import peak
 from tribodyn.views.numbers import fitting
 from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
-from tribodyn.views.playback import playback_times
+from tribodyn.views.playback import peak, playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.wear import WORN, fitting_unit
 

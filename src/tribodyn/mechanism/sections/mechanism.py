@@ -5,7 +5,7 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanism.assembly.skeleton import MM, Mark, Skeleton, case_of, outline_at, skeleton, view
 from tribodyn.mechanism.model.body import BodyKeys, body_solid
 from tribodyn.mechanism.results.copies import worst_copies

@@ -8,11 +8,11 @@ from typing import Any, Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import unit
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.signals import Signal
+from tribodyn.joints.point_contact import FlatWalls
 from tribodyn.joints.shapes import Guide, Slot
-from tribodyn.joints.touch import FlatWalls
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
 from tribodyn.mechanism.frames import frame

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeAlias
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import NamedGroup
-from tribodyn.core.arrays import FloatArray
 from tribodyn.joints.shapes import Shape
 from tribodyn.joints.shapes.guide import rows_across
 from tribodyn.joints.shapes.rings import EDGES

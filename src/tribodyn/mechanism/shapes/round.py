@@ -1,10 +1,10 @@
-"""Balls: in a race, and in a bore along which they slide."""
+"""Balls in a race and along a bore, and a round pin in a slot between flat walls."""
 
 from typing import Any, ClassVar
 
 from tribodyn.cases.case import NamedGroup
 from tribodyn.cases.fields import quantity
-from tribodyn.joints.shapes import Ball, Sphere
+from tribodyn.joints.shapes import Ball, Slot, Sphere
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape, Local
 
 
@@ -37,3 +37,20 @@ class BallInBore(ClearanceShape):
     def of(self, keys: Any, local: Local) -> Ball:
         """Return the ball."""
         return Ball(keys.radius, keys.radial)
+
+
+class PinInSlot(ClearanceShape):
+    """A pin between two flat walls."""
+
+    NAME: ClassVar[str] = "slot"
+    NEEDED: ClassVar[dict[str, str]] = {
+        **ClearanceShape.NEEDED,
+        "length": "the length of the pin in its slot",
+    }
+    EXAMPLE: ClassVar[dict[str, object]] = {**ClearanceShape.EXAMPLE, "length": "20 mm"}
+
+    WALLS: ClassVar[int] = 2
+
+    def of(self, keys: Any, local: Local) -> Slot:
+        """Return the slot as drawn."""
+        return Slot(keys.radius, keys.radial, keys.length)

@@ -9,22 +9,28 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.pressure import draw_map
-from tribodyn.papers.cheng_2022.layout import ANGLE, STYLES, by_clearance, enlarge, first_cycle, keep, limits
 from tribodyn.papers.cheng_2022.runs import (
+    ANGLE,
+    STYLES,
     PaperFigure,
     Runs,
+    by_clearance,
+    enlarge,
     finer,
+    first_cycle,
     is_smooth,
+    keep,
+    limits,
     mean_rate,
     on_grid,
     over_clearances,
 )
 from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre_velocity
 from tribodyn.views.bushing import Unrolled, unrolled
-from tribodyn.views.events import series
+from tribodyn.views.playback import series
 
 HARDEST: Final = 0.05  #: Samples follow the steps for this long after a reversal [s]: ``run.impact_window``.
 _PARTS: Final = {"c": "contact", "k": "rigid", "d": "damping"}

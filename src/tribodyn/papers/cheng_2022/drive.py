@@ -10,9 +10,8 @@ from matplotlib.figure import Figure
 from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.claims.all_joints import ONE, SEVEN, means
 from tribodyn.papers.cheng_2022.claims.base import Trial
-from tribodyn.papers.cheng_2022.layout import first_cycle, keep
-from tribodyn.papers.cheng_2022.runs import CLEARANCES, JOINTS, PaperFigure, Runs
-from tribodyn.views.events import series
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, JOINTS, PaperFigure, Runs, first_cycle, keep
+from tribodyn.views.playback import series
 
 DEGREES: Final = float(np.rad2deg(1.0))
 

@@ -12,7 +12,7 @@ from tribodyn.papers.cheng_2022.claims import summary
 from tribodyn.papers.cheng_2022.claims.table import Row, as_json, as_markdown
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 from tribodyn.results import netcdf_content
-from tribodyn.results.atomic import write_bytes, write_text
+from tribodyn.results.store import write_bytes, write_text
 
 #: Every figure of the paper that shows results, by name, and two that its conclusions ask for.
 FIGURES: Final[dict[str, PaperFigure]] = {

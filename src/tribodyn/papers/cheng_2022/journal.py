@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.figures import style
-from tribodyn.papers.cheng_2022.layout import keep
-from tribodyn.papers.cheng_2022.runs import LAWS, PaperFigure, Runs, joined
-from tribodyn.views.events import series
+from tribodyn.papers.cheng_2022.runs import LAWS, PaperFigure, Runs, joined, keep
+from tribodyn.views.playback import series
 
 _LOOKS: Final[dict[tuple[str, str], tuple[str, style.LineStyle]]] = {
     ("rsdc", "x"): (style.BLUE, style.SOLID),

@@ -7,20 +7,19 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.figures.pressure import draw as draw_pictures
 from tribodyn.joints.bushing import new_memory, pose_at
 from tribodyn.kernels.joints.bushing import pressure_field
-from tribodyn.papers.cheng_2022.layout import ANGLE, enlarge, keep, limits
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
 from tribodyn.papers.cheng_2022.reduced.sections import case_of
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
-from tribodyn.papers.cheng_2022.runs import PaperFigure, Runs, finer, is_smooth
-from tribodyn.views.events import series
+from tribodyn.papers.cheng_2022.runs import ANGLE, PaperFigure, Runs, enlarge, finer, is_smooth, keep, limits
+from tribodyn.views.playback import series
 
 CLEARANCE: Final = 20e-6
 #: The three centres: name, height over the length of the bushing, look.

@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import style
 from tribodyn.papers.cheng_2022.runs import FORMULATIONS, PaperFigure, Runs
 

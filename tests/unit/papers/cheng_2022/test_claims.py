@@ -7,8 +7,7 @@ import pytest
 import xarray as xr
 
 from tribodyn.papers.cheng_2022.claims import CLAIMS, Claim, Finding, Row, as_text
-from tribodyn.papers.cheng_2022.claims.base import SENTENCES
-from tribodyn.papers.cheng_2022.claims.bounds import CLOSE, NEAR, above, below, near
+from tribodyn.papers.cheng_2022.claims.base import CLOSE, NEAR, SENTENCES, above, below, near
 from tribodyn.papers.cheng_2022.claims.ensemble import Judgement
 from tribodyn.papers.cheng_2022.claims.errors import speed_trend
 from tribodyn.papers.cheng_2022.claims.journal import fall_time, late_motion

@@ -8,8 +8,7 @@ import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.claims import CLAIMS, Claim, kept_rows, summary
-from tribodyn.papers.cheng_2022.claims.base import IN, SLOW
-from tribodyn.papers.cheng_2022.claims.bounds import Bound, above, below, near
+from tribodyn.papers.cheng_2022.claims.base import IN, SLOW, Bound, above, below, near
 from tribodyn.papers.cheng_2022.claims.ensemble import (
     FACTORS,
     LEFT_OUT,

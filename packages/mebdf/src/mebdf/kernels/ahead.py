@@ -10,9 +10,8 @@ from mebdf.arrays import FloatArray, FloatCube, FloatMatrix, IntArray, IntMatrix
 from mebdf.compiled.kernel import UNCOMPILED, Instruction, Kernel
 from mebdf.kernels import phases
 from mebdf.kernels import state as at
-from mebdf.kernels.arrays import copy
 from mebdf.kernels.core import resume
-from mebdf.kernels.jit import SOURCES, entry, kernel
+from mebdf.kernels.jit import SOURCES, copy, entry, kernel
 from mebdf.kernels.state import MebdfState
 
 FUN: Final = 0

@@ -33,12 +33,11 @@ from mebdf.arrays import FloatArray, FloatCube, FloatMatrix
 from mebdf.kernels import phases
 from mebdf.kernels import state as at
 from mebdf.kernels.coefficients import SCALARS
-from mebdf.kernels.control import LEAST_STEP, choose, limit_step, set_weights
+from mebdf.kernels.control import LEAST_STEP, choose, limit_step, set_weights, start
 from mebdf.kernels.history import push, rescale
 from mebdf.kernels.jit import entry, inlined
 from mebdf.kernels.newton import iterate, start_stage
 from mebdf.kernels.renewal import begin_stages, renew_matrix, take_over
-from mebdf.kernels.start import start
 from mebdf.kernels.state import NUMBERS, Numbers
 
 #: Failures of Newton's iteration with a new Jacobian after which the progress is looked at.

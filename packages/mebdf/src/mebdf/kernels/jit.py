@@ -1,8 +1,9 @@
-"""Decorators of the kernels of the solver."""
+"""Decorators of the kernels of the solver, and copying of arrays."""
 
 from pathlib import Path
 from typing import Final
 
+from mebdf.arrays import FloatArray
 from mebdf.compiled.kernel import decorators
 from mebdf.compiled.library import Sources
 
@@ -12,3 +13,10 @@ SOURCES: Final = Sources(
 )
 
 entry, kernel, inlined = decorators(SOURCES)
+
+
+@entry
+def copy(source: FloatArray, target: FloatArray) -> None:
+    """Copy ``source`` into the beginning of ``target``; both one-dimensional."""
+    for i in range(source.size):
+        target[i] = source[i]

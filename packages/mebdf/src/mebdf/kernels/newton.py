@@ -12,7 +12,22 @@ from numpy.typing import NDArray
 from mebdf.arrays import FloatArray
 from mebdf.kernels import phases
 from mebdf.kernels import state as at
-from mebdf.kernels.acceptance import FALSE, IN_DOUBT, OPEN, PROVED, SOLVED, judge, judge_beside_rounding
+from mebdf.kernels.acceptance import (
+    FALSE,
+    IN_DOUBT,
+    MIXED,
+    OPEN,
+    PROVED,
+    SOLVED,
+    TOO_FAR,
+    WATCHED,
+    begin_near,
+    judge,
+    judge_beside_rounding,
+    judge_mixture,
+    keep_residual,
+    look_back,
+)
 from mebdf.kernels.coefficients import BDF_HISTORY, EXTENDED_HISTORY, SCALARS
 from mebdf.kernels.control import (
     CAUTION,
@@ -23,15 +38,13 @@ from mebdf.kernels.control import (
     newton_failed,
     norm,
     reject,
+    remember_not_finite,
 )
 from mebdf.kernels.elementary import power
 from mebdf.kernels.history import push
 from mebdf.kernels.jit import inlined, kernel
-from mebdf.kernels.mass import is_algebraic, multiply, product
-from mebdf.kernels.matrix import magnify, solve
-from mebdf.kernels.start import remember_not_finite
+from mebdf.kernels.matrix import is_algebraic, magnify, multiply, product, solve
 from mebdf.kernels.state import Numbers
-from mebdf.kernels.turning import MIXED, TOO_FAR, WATCHED, begin_near, judge_mixture, keep_residual, look_back
 
 MAX_ITERATIONS: Final = np.array([0, 4, 4, 5])
 DIVERGING: Final = 2.0

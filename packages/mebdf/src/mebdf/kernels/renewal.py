@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from mebdf.arrays import FloatArray
 from mebdf.kernels import phases
 from mebdf.kernels import state as at
-from mebdf.kernels.arrays import copy
 from mebdf.kernels.control import newton_failed
-from mebdf.kernels.jit import inlined, kernel
+from mebdf.kernels.jit import copy, inlined, kernel
 from mebdf.kernels.matrix import factorise
 from mebdf.kernels.state import Numbers
 

@@ -165,7 +165,7 @@ class Numbers:
     implicit: int  #: Whether the caller evaluates the whole residual of an equation in t, y and y'.
     ahead: int  #: Whether the next Jacobian is that of the predicted value.
     reference: int  #: Sign of the determinant for short steps, 0 while it is unknown.
-    #: Whether the solution of the stage lies between two known values, see :mod:`mebdf.kernels.turning`.
+    #: Whether the solution of the stage lies between two known values, see :mod:`mebdf.kernels.acceptance`.
     between: int
     halvings: int  #: Halvings of their distance in the present stage.
     trouble: int  #: Measure of the failures of Newton's iteration in the last steps.

@@ -7,7 +7,7 @@ an array that the loops over nodes read. Behind them it has place for all groups
 import math
 from typing import Any, Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.data import (

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity

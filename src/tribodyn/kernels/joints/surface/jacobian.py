@@ -11,10 +11,9 @@ With N = (n, x × n), Ŝ = (ŝ, x × ŝ), ŝ = s/q, q = √(s² + u_s²), and X 
 import math
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import inlined, kernel
+from tribodyn.kernels.jit import clear, inlined, kernel
 from tribodyn.kernels.joints.columns import AREA, PITCH, PRESSURE, RESISTANCE, STIFFNESS, whole
 from tribodyn.kernels.joints.pressure import fill_pressures, fill_slopes
 from tribodyn.kernels.joints.surface.data import SurfaceData, table_of

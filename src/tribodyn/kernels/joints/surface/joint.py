@@ -1,15 +1,14 @@
 """The kernels of a clearance joint, whatever its surfaces: what mechanisms call.
 
-``j`` counts the clearance joints of a mechanism, ``pose`` is a record as ``pose`` describes it; of the memory
+``j`` counts the clearance joints of a mechanism, ``pose`` is a record as ``tilt`` describes it; of the memory
 a kernel changes the scratch, and what it says.
 """
 
 from typing import Annotated
 
-from tribodyn.core.arrays import FloatArray, FloatMatrix
+from mebdf.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.jit import clear, entry, kernel
 from tribodyn.kernels.joints.pose import V, W
 from tribodyn.kernels.joints.surface import entry as of_node
 from tribodyn.kernels.joints.surface import point, ring_entry, ring_jacobian, ring_wrench
@@ -26,14 +25,13 @@ from tribodyn.kernels.joints.surface.memory import (
     take_over,
     tell_motion,
 )
-from tribodyn.kernels.joints.surface.pose import TURN, Pose
 from tribodyn.kernels.joints.surface.station import (
     derivatives_at_origin,
     fill_station,
     friction_at_origin,
     pressure_at_origin,
 )
-from tribodyn.kernels.joints.surface.tilt import fill_derivatives, fill_tilt, moment_of
+from tribodyn.kernels.joints.surface.tilt import TURN, Pose, fill_derivatives, fill_tilt, moment_of
 
 
 @kernel

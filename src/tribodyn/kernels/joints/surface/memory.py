@@ -12,16 +12,13 @@ from typing import Annotated, Final, NamedTuple
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray, FloatMatrix, IntArray, IntMatrix
+from mebdf.arrays import FloatArray, FloatMatrix, IntArray, IntMatrix
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.jit import inlined, kernel
-from tribodyn.kernels.joints.surface.data import SurfaceData
+from tribodyn.kernels.jit import inlined, kernel, new_record
+from tribodyn.kernels.joints.surface.data import Peaks, Report, SurfaceData
 from tribodyn.kernels.joints.surface.listed import Listed
-from tribodyn.kernels.joints.surface.pose import Pose
-from tribodyn.kernels.joints.surface.quantities import Peaks, Report
 from tribodyn.kernels.joints.surface.station import Station
-from tribodyn.kernels.joints.surface.tilt import Tilt
+from tribodyn.kernels.joints.surface.tilt import Pose, Tilt
 from tribodyn.kernels.lanes import WIDTH
 
 BLOCK_GROUPS: Final = 26 * WIDTH  #: Begins of the groups of the block.
@@ -98,7 +95,7 @@ class SurfaceMemory(NamedTuple):
     #: Nodes of patches that it belongs to, shape (n_nodes,), and their number, shape (n_surfaces,).
     touched: IntArray
     n_touched: IntArray
-    #: Of each surface, see ``quantities``, shape (n_surfaces,).
+    #: Of each surface, see ``data``, shape (n_surfaces,).
     reports: Annotated[Record, Report, 1]
     peaks: Annotated[Record, Peaks, 1]
     #: Of friction that holds at rest, shapes (n_surfaces, ``N_STRAIN``) and (n_joints, ``N_ANCHOR``).

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.columns import APPROACH, AREA, ENTRY, FRACTION, INTERVAL, PART, PITCH, end_list

@@ -10,7 +10,7 @@ literature, the cross-sections are circles: the ellipse of a tilted shaft is neg
 
 import math
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.pressure import node_pressure, reference_velocity

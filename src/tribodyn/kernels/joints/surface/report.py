@@ -2,11 +2,10 @@
 
 import math
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.core.remembered import ContactTable
-from tribodyn.kernels.extremes import larger, smaller
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import kernel, larger, smaller
 from tribodyn.kernels.joints.columns import APPROACH, AREA, FRACTION, INTERVAL, PART, PRESSURE, RIGID
 from tribodyn.kernels.joints.pressure import fill_pressures, weighted_sum
 from tribodyn.kernels.joints.surface import listed, ring_report

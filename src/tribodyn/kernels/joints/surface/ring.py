@@ -19,7 +19,7 @@ reach.
 
 from typing import Any, Final, NamedTuple
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import ALONG, APPROACHING, AROUND, NEARING, groups_of, rings_from

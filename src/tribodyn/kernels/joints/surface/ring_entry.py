@@ -2,12 +2,12 @@
 
 import math
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.block import fill_motion, fill_windows, groups_of, rings_from
+from tribodyn.kernels.joints.surface.bulk import fill_block
 from tribodyn.kernels.joints.surface.data import COS, GAP, SIN, SurfaceData
-from tribodyn.kernels.joints.surface.levels import fill_block
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.nodes import forget
 from tribodyn.kernels.joints.surface.ring import (

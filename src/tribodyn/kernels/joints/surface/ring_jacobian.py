@@ -17,13 +17,12 @@ Derivatives are added up in lanes, one for each of four rings, until the last ri
 
 from typing import Any, Final, NamedTuple
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import fill_windows
-from tribodyn.kernels.joints.surface.bulk import SLOPE
+from tribodyn.kernels.joints.surface.bulk import SLOPE, fill_block
 from tribodyn.kernels.joints.surface.data import SurfaceData
-from tribodyn.kernels.joints.surface.levels import fill_block
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import DERIVATIVES, does_bend
 from tribodyn.kernels.joints.surface.ring_slopes import (
@@ -35,22 +34,11 @@ from tribodyn.kernels.joints.surface.ring_slopes import (
     STIFF,
     TRACTIONS,
     WIDENED,
-    fill_sums,
-)
-from tribodyn.kernels.joints.surface.ring_sums import (
-    Ring,
-    Tractions,
-    four_rings,
-    no_pressure,
-    no_traction,
-    with_pressures_of,
-    with_tractions_of,
-)
-from tribodyn.kernels.joints.surface.ring_terms import (
     Five,
     Three,
     by_c,
     by_s,
+    fill_sums,
     five_at,
     leaning,
     leaning_more,
@@ -61,7 +49,19 @@ from tribodyn.kernels.joints.surface.ring_terms import (
     sum_of,
     times,
 )
-from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces, with_ring
+from tribodyn.kernels.joints.surface.ring_wrench import (
+    Forces,
+    Ring,
+    Tractions,
+    four_rings,
+    no_forces,
+    no_pressure,
+    no_traction,
+    put_forces,
+    with_pressures_of,
+    with_ring,
+    with_tractions_of,
+)
 from tribodyn.kernels.lanes import WIDTH, load, spread, store, totals, zeros
 
 ROW: Final = 6 * WIDTH

@@ -3,14 +3,13 @@
 import math
 from typing import Any
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record
-from tribodyn.kernels import extremes
+from tribodyn.kernels import jit
 from tribodyn.kernels.jit import inlined, kernel
 from tribodyn.kernels.joints.surface.block import fill_windows, groups_of, rings_from
-from tribodyn.kernels.joints.surface.bulk import CHANGE
+from tribodyn.kernels.joints.surface.bulk import CHANGE, PEAK, WIDENING, fill_block
 from tribodyn.kernels.joints.surface.data import RADIUS, SurfaceData
-from tribodyn.kernels.joints.surface.levels import PEAK, WIDENING, fill_block
 from tribodyn.kernels.joints.surface.memory import BLOCK_GROUPS, SurfaceMemory
 from tribodyn.kernels.joints.surface.ring import (
     ALONG_UNIT,
@@ -30,17 +29,20 @@ from tribodyn.kernels.joints.surface.ring import (
     motion_of,
     place_of,
 )
-from tribodyn.kernels.joints.surface.ring_sums import (
+from tribodyn.kernels.joints.surface.ring_wrench import (
+    Forces,
     Pressures,
+    no_forces,
     no_pressure,
     no_traction,
     one_ring,
+    put_forces,
     put_pressures,
     with_pressure,
     with_pressures_of,
+    with_ring,
     with_traction,
 )
-from tribodyn.kernels.joints.surface.ring_wrench import Forces, no_forces, put_forces, with_ring
 from tribodyn.kernels.lanes import (
     WIDTH,
     above,
@@ -82,9 +84,9 @@ def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) 
     scratch.rigid_load = total(rest[1])
     _put_terms(surface, rest[2], out)
     a, b, c, d = parts(rest[3])
-    out.p_max = extremes.larger(extremes.larger(a, b), extremes.larger(c, d))
+    out.p_max = jit.larger(jit.larger(a, b), jit.larger(c, d))
     a, b, c, d = parts(rest[4])
-    return extremes.smaller(extremes.smaller(a, b), extremes.smaller(c, d))
+    return jit.smaller(jit.smaller(a, b), jit.smaller(c, d))
 
 
 @inlined

@@ -14,7 +14,7 @@ any gap changing.
 
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
 from tribodyn.kernels.jit import kernel
 

@@ -1,4 +1,4 @@
-"""The tilt φ of a shaft, its rate, and the moment that does the work of the pressure.
+"""Pose of a joint's shaft in its socket, its tilt, and the moment that does the work of the pressure.
 
 Gaps follow the tilt φ(R), not the angular velocity: φ̇ = G ω with a matrix G that is the identity only as
 drawn. With the moment m = Σ A x × (−p n) about P, the power of the pressure over all gaps is F·v + m·φ̇. So
@@ -19,14 +19,17 @@ radial normal n and the height z is
 ρ is the radius of the pin if z is a height on the bore, and minus that radius if z is a height on the pin.
 The pressure acts along the normal of the pin in the first case, along that of the bore in the second; both
 give the lever arm z + ρ n·l. The derivation is in ``docs/theory/mechanisms.md``.
+
+Wrenches are (F_x, F_y, F_z, M_x, M_y, M_z) on the shaft, moments about its origin P. Their derivatives are
+taken with respect to displacement, a small rotation of the shaft, velocity and angular velocity, three of
+each. On the socket the same forces act backwards: −F, and −(M + d × F) about the socket's origin O.
 """
 
 from typing import Final
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.core.quantities import Record, record_type
-from tribodyn.kernels.arrays import clear
-from tribodyn.kernels.jit import kernel
+from tribodyn.kernels.jit import clear, kernel
 
 NO_TILT: Final = 0.0
 AXIS: Final = 1.0
@@ -113,3 +116,29 @@ def fill_derivatives(
             rate_turn[2, 1] += 0.5 * rotation[0, k] * w[k]
             out[k, 0] -= 0.5 * rotation[1, k] * m[2]
             out[k, 1] += 0.5 * rotation[0, k] * m[2]
+
+
+Pose: Final = record_type(
+    ("d", "f8", (3,)),
+    ("rotation", "f8", (3, 3)),
+    ("v", "f8", (3,)),
+    ("w", "f8", (3,)),
+    ("opening", "f8", (2,)),
+    ("v_opening", "f8", (2,)),
+)
+"""
+d
+    From O to P [m].
+rotation
+    Turns components in the shaft's frame into those in the socket's; the identity as drawn. Its last column
+    is the axis of the shaft.
+v
+    Velocity of P relative to the socket [m/s].
+w
+    Angular velocity of the shaft relative to the socket [rad/s].
+opening, v_opening
+    What temperatures have added to the radial clearance and to the play along the axis [m], and the rates.
+"""
+
+#: First column of the small rotation in the derivative; for the others see ``joints/pose.py``.
+TURN: Final = 3

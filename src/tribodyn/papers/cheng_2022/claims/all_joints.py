@@ -10,9 +10,8 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022.claims.base import SLOW, Claim, Finding, Trial, of_instants
-from tribodyn.papers.cheng_2022.claims.bounds import STRICT, near
+from mebdf.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims.base import SLOW, STRICT, Claim, Finding, Trial, near, of_instants
 from tribodyn.papers.cheng_2022.runs import JOINTS, forward, is_smooth
 
 ONE: Final = "trunnion"  #: The joint that the paper gives a clearance.

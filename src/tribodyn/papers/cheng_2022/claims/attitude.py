@@ -7,9 +7,20 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed, weights
-from tribodyn.papers.cheng_2022.claims.bounds import FIRST, REVIEWED, VARIED, above, below
+from mebdf.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims.base import (
+    FIRST,
+    REVIEWED,
+    VARIED,
+    Claim,
+    Domain,
+    Finding,
+    Trial,
+    above,
+    below,
+    listed,
+    weights,
+)
 from tribodyn.papers.cheng_2022.clearance import HARDEST, windows
 from tribodyn.papers.cheng_2022.runs import forward, smooth
 from tribodyn.papers.cheng_2022.trunnion import CENTRES, centre, centre_velocity

@@ -7,10 +7,20 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.attitude import tilt
-from tribodyn.papers.cheng_2022.claims.base import MANY_RUNS, Claim, Finding, Trial, least_growth, listed
-from tribodyn.papers.cheng_2022.claims.bounds import FIRST, VARIED, above, below
+from tribodyn.papers.cheng_2022.claims.base import (
+    FIRST,
+    MANY_RUNS,
+    VARIED,
+    Claim,
+    Finding,
+    Trial,
+    above,
+    below,
+    least_growth,
+    listed,
+)
 from tribodyn.papers.cheng_2022.claims.forces import size
 from tribodyn.papers.cheng_2022.clearance import collision_speed, peaks
 from tribodyn.papers.cheng_2022.runs import smooth

@@ -8,8 +8,18 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.papers.cheng_2022.claims.base import MANY_RUNS, NARROW, SLOW, Claim, Finding, Trial
-from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, VARIED, above, below
+from tribodyn.papers.cheng_2022.claims.base import (
+    MANY_RUNS,
+    NARROW,
+    REVIEWED,
+    SLOW,
+    VARIED,
+    Claim,
+    Finding,
+    Trial,
+    above,
+    below,
+)
 from tribodyn.papers.cheng_2022.claims.forces import size
 from tribodyn.papers.cheng_2022.undamped import THREE_CYCLES, TOLERANCES, undamped
 

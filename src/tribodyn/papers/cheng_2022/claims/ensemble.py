@@ -16,8 +16,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from tribodyn.papers.cheng_2022.claims.base import Claim
-from tribodyn.papers.cheng_2022.claims.bounds import Bound, Verdict, of_span
+from tribodyn.papers.cheng_2022.claims.base import Bound, Claim, Verdict, of_span
 from tribodyn.papers.cheng_2022.runs import JOINTS
 
 #: Measure of a claim: a number, two where the paper does not say which is meant, none without a run.

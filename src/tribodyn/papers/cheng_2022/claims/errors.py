@@ -6,19 +6,20 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims import all_joints
 from tribodyn.papers.cheng_2022.claims.base import (
     MANY_RUNS,
     Claim,
     Finding,
     Trial,
+    above,
     least_growth,
     listed,
+    near,
     of_instants,
     trend,
 )
-from tribodyn.papers.cheng_2022.claims.bounds import above, near
 from tribodyn.papers.cheng_2022.runs import CLEARANCES, smooth
 
 _DEGREES: Final = float(np.rad2deg(1.0))

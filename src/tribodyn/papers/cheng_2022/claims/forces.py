@@ -8,9 +8,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022.claims.base import Claim, Domain, Finding, Trial, listed, weights
-from tribodyn.papers.cheng_2022.claims.bounds import REVIEWED, VARIED, above, below
+from mebdf.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims.base import (
+    REVIEWED,
+    VARIED,
+    Claim,
+    Domain,
+    Finding,
+    Trial,
+    above,
+    below,
+    listed,
+    weights,
+)
 from tribodyn.papers.cheng_2022.clearance import damping_along_rigid, peaks, windows
 from tribodyn.papers.cheng_2022.runs import forward, is_smooth, smooth
 

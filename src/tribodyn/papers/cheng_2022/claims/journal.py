@@ -6,9 +6,18 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial, listed
-from tribodyn.papers.cheng_2022.claims.bounds import FIRST, REVIEWED, VARIED, above, below
+from mebdf.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims.base import (
+    FIRST,
+    REVIEWED,
+    VARIED,
+    Claim,
+    Finding,
+    Trial,
+    above,
+    below,
+    listed,
+)
 from tribodyn.papers.cheng_2022.journal import over_laws, run_of
 from tribodyn.papers.cheng_2022.runs import LAWS
 

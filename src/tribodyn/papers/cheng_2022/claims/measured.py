@@ -12,7 +12,7 @@ from tribodyn.papers.cheng_2022.claims import CLAIMS
 from tribodyn.papers.cheng_2022.claims.base import EARLY, IN, SLOW, Claim, EndedEarly, Trial
 from tribodyn.papers.cheng_2022.claims.ensemble import FILE, LEFT_OUT, MEMBERS, SLOW_MEMBERS, Number
 from tribodyn.papers.cheng_2022.runs import Runs
-from tribodyn.results.atomic import write_text
+from tribodyn.results.store import write_text
 
 #: Numbers and words of a member, each by claim and formulation.
 Piece: TypeAlias = dict[str, dict[str, dict[str, Any]]]

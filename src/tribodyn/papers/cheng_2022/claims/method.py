@@ -6,8 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.papers.cheng_2022.claims.base import NARROW, SLOW, Claim, Finding, Trial
-from tribodyn.papers.cheng_2022.claims.bounds import VARIED, above, below
+from tribodyn.papers.cheng_2022.claims.base import NARROW, SLOW, VARIED, Claim, Finding, Trial, above, below
 from tribodyn.papers.cheng_2022.runs import smooth
 
 #: Degrees of freedom of the joints of the case ``vsv-joints``; the ball on the pin slides in a slot.

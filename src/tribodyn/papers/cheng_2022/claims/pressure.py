@@ -6,9 +6,8 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
-from tribodyn.papers.cheng_2022.claims.base import Claim, Finding, Trial
-from tribodyn.papers.cheng_2022.claims.bounds import FIRST, VARIED, above, below
+from mebdf.arrays import FloatArray
+from tribodyn.papers.cheng_2022.claims.base import FIRST, VARIED, Claim, Finding, Trial, above, below
 from tribodyn.papers.cheng_2022.claims.forces import CAUSE, NO_M_AIR
 
 ZONE: Final = 0.05  #: Contact is where the pressure exceeds this share of its peak.

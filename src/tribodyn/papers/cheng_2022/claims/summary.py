@@ -4,8 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any, Final
 
-from tribodyn.papers.cheng_2022.claims.base import SENTENCES
-from tribodyn.papers.cheng_2022.claims.bounds import VERDICTS, Verdict
+from tribodyn.papers.cheng_2022.claims.base import SENTENCES, VERDICTS, Verdict
 from tribodyn.papers.cheng_2022.claims.table import Row
 
 FAVOURABLE: Final[tuple[Verdict, ...]] = ("reproduced", "on a condition")

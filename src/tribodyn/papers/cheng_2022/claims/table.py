@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from tribodyn.papers.cheng_2022.claims.base import EARLY, IN, Claim, EndedEarly, Finding, Trial
-from tribodyn.papers.cheng_2022.claims.bounds import Verdict
+from tribodyn.papers.cheng_2022.claims.base import EARLY, IN, Claim, EndedEarly, Finding, Trial, Verdict
 from tribodyn.papers.cheng_2022.claims.ensemble import Judgement, judgement, kept
 from tribodyn.papers.cheng_2022.runs import Runs
 

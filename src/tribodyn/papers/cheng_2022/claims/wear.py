@@ -5,17 +5,20 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.papers.cheng_2022.claims.base import (
+    FIRST,
     MANY_RUNS,
     NARROW,
     Claim,
     Finding,
     Trial,
+    above,
+    below,
     least_growth,
     listed,
+    near,
 )
-from tribodyn.papers.cheng_2022.claims.bounds import FIRST, above, below, near
 from tribodyn.papers.cheng_2022.clearance import CYCLES, worn
 from tribodyn.papers.cheng_2022.runs import CLEARANCES
 from tribodyn.results.dataset import WEAR_SCATTER, json_attribute

@@ -280,7 +280,7 @@ class VsvCase(BushingCase):
 
     def doors(self) -> Doors:
         """Return the keys for functions of drive and loads."""
-        from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_range
+        from tribodyn.papers.cheng_2022.reduced.drives import ideal_range
 
         crank = self.crank.crank_range(self.duration)
         span = self.period if self.run.cycles is not None else self.duration

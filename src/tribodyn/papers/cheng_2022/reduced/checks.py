@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms import self_checks
+from tribodyn.papers.cheng_2022.reduced.drives import run_segments
 from tribodyn.papers.cheng_2022.reduced.parameters import Vsv
-from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
 
 WHOLE: Final = EnergyBalance(

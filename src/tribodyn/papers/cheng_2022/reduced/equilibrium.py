@@ -10,8 +10,8 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.functions import kinetostatic_residual

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.figures import chart, pressure, style
 from tribodyn.figures.chart import Family
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -20,7 +20,7 @@ from tribodyn.papers.cheng_2022.reduced.sections import (
     ring_points,
 )
 from tribodyn.views.bushing_sections import ORBIT
-from tribodyn.views.events import finite, series
+from tribodyn.views.playback import finite, series
 from tribodyn.views.wear import WEAR_HISTORY
 
 TITLE: Final = "The mechanism at three vane positions"

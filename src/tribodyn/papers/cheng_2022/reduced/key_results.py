@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.fields import choice
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.quantities import Record
 from tribodyn.mechanisms.output_keys import ErrorKeys, instants_of, limits_of
 from tribodyn.mechanisms.output_numbers import errors_at

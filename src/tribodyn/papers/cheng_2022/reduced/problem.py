@@ -5,31 +5,30 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.problem import CompiledFunctions, Problem
 from tribodyn.core.quantities import names
 from tribodyn.joints.bushing import new_memory
 from tribodyn.kernels.actions import NONE, TIME
-from tribodyn.kernels.arrays import new_record
-from tribodyn.kernels.joints.bushing import update_entry_velocity
-from tribodyn.kernels.joints.collar import Collar
-from tribodyn.kernels.joints.collar import Extremes as CollarExtremes
+from tribodyn.kernels.jit import new_record
+from tribodyn.kernels.joints.bushing import Collar, update_entry_velocity
+from tribodyn.kernels.joints.bushing import Extremes as CollarExtremes
 from tribodyn.kernels.joints.quantities import SHARP, STATES
 from tribodyn.kernels.ledger import NO_SWING, new_books
 from tribodyn.kernels.peaks import new_peaks
-from tribodyn.kernels.vsv import functions, layout
+from tribodyn.kernels.vsv import data, functions
 from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import Books, Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, WATCHED
+from tribodyn.mechanisms.bushing import Carried
 from tribodyn.mechanisms.shaft_loads import WAVE_STEPS, actions_of, shortest_wave
 from tribodyn.mechanisms.signal_pieces import SignalList, pieces_of
-from tribodyn.mechanisms.wear_state import Carried
+from tribodyn.papers.cheng_2022.reduced.drives import run_segments
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
 from tribodyn.papers.cheng_2022.reduced.parameters import FORMULATIONS, CrankMotion, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_table
-from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 
 STARTS: Final = ("equilibrium", "centred")
 
@@ -93,25 +92,25 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
 
 def _row_inertia(vsv: Vsv) -> FloatArray:
     """Return the mass or moment of inertia of each row of the motion table."""
-    inertia = np.zeros(layout.N_ROWS)
-    inertia[layout.THETA_A] = vsv.crank_inertia
-    inertia[layout.THETA_B] = vsv.ring_inertia
-    inertia[layout.THETA_V] = vsv.inertias.J_vz
-    inertia[[layout.O1_X, layout.O1_Z]] = vsv.inertias.m_1
-    inertia[layout.O2_X : layout.O2_Z + 1] = vsv.inertias.m_2
-    inertia[layout.N_X : layout.N_Z + 1] = vsv.link_inertia
-    inertia[layout.O3_X : layout.O3_Z + 1] = vsv.inertias.m_3
-    inertia[[layout.OV_X, layout.OV_Y]] = vsv.inertias.m_v
-    inertia[[layout.PHI_X, layout.PHI_Y]] = vsv.vane_inertia
+    inertia = np.zeros(data.N_ROWS)
+    inertia[data.THETA_A] = vsv.crank_inertia
+    inertia[data.THETA_B] = vsv.ring_inertia
+    inertia[data.THETA_V] = vsv.inertias.J_vz
+    inertia[[data.O1_X, data.O1_Z]] = vsv.inertias.m_1
+    inertia[data.O2_X : data.O2_Z + 1] = vsv.inertias.m_2
+    inertia[data.N_X : data.N_Z + 1] = vsv.link_inertia
+    inertia[data.O3_X : data.O3_Z + 1] = vsv.inertias.m_3
+    inertia[[data.OV_X, data.OV_Y]] = vsv.inertias.m_v
+    inertia[[data.PHI_X, data.PHI_Y]] = vsv.vane_inertia
     return inertia
 
 
 def _row_weight(vsv: Vsv) -> FloatArray:
     """Return the gravity load of each row of the motion table [N]."""
-    weight = np.zeros(layout.N_ROWS)
-    weight[layout.O1_Z] = -vsv.inertias.m_1 * vsv.gravity
-    weight[layout.O2_Z] = -vsv.inertias.m_2 * vsv.gravity
-    weight[layout.O3_Z] = -vsv.inertias.m_3 * vsv.gravity
+    weight = np.zeros(data.N_ROWS)
+    weight[data.O1_Z] = -vsv.inertias.m_1 * vsv.gravity
+    weight[data.O2_Z] = -vsv.inertias.m_2 * vsv.gravity
+    weight[data.O3_Z] = -vsv.inertias.m_3 * vsv.gravity
     return weight
 
 

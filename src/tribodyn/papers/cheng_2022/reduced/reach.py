@@ -6,13 +6,13 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.core.quantities import Record
 from tribodyn.core.splines import bisected, spline
 from tribodyn.kernels.vsv.closure import closure_residual, crank_end
-from tribodyn.kernels.vsv.layout import N_IDEAL
+from tribodyn.kernels.vsv.data import N_IDEAL
 from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 
 _SCAN: Final = 1441

@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.load import parse
 from tribodyn.cases.units import UnitProblem, to_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import CLEARANCE, WHOLE
@@ -19,8 +19,7 @@ from tribodyn.views.charts import Chart, ChartCurve, ChartMarks, Panel
 from tribodyn.views.common import Overlay, OverlayQuantity, scaled
 from tribodyn.views.encode import packed
 from tribodyn.views.energy_balance import balance_chart
-from tribodyn.views.events import direction, series
-from tribodyn.views.playback import at_frames, magnification, playback_times
+from tribodyn.views.playback import at_frames, direction, magnification, playback_times, series
 from tribodyn.views.section import OVER_TIME, Chapter, Payload, Section
 from tribodyn.views.wear import WEAR_HISTORY, WEAR_MAP, WEAR_STAGES
 

@@ -9,11 +9,11 @@ from typing import Any, Final, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.cases.joint_keys import CONFORMAL
 from tribodyn.cases.temperature import cold_geometry
 from tribodyn.contact.bulk import elastic_bodies
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.core.signals import begun
 from tribodyn.integrate import INTERRUPTED
@@ -23,6 +23,9 @@ from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.functions import BEYOND, BEYOND_LAW
 from tribodyn.kernels.vsv.quantities import OBSERVED, WATCHED
 from tribodyn.mechanisms.bushing import (
+    Carried,
+    WearNodes,
+    Worn,
     bushing_facts,
     bushing_of,
     force_parts,
@@ -34,10 +37,9 @@ from tribodyn.mechanisms.flash import flash_of_bushing
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates
 from tribodyn.mechanisms.output_keys import error_share, instant_coordinates, limits_of
 from tribodyn.mechanisms.output_numbers import lives, shaft_displacements
-from tribodyn.mechanisms.playback import frame_times, merged, shown
 from tribodyn.mechanisms.results import of_reversals, of_run
 from tribodyn.mechanisms.self_checks import beyond_law, extremes, instant, of_clearance, of_tables, yielding
-from tribodyn.mechanisms.wear_state import Carried, WearNodes, Worn
+from tribodyn.mechanisms.workload import frame_times, merged, shown
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.papers.cheng_2022.reduced.checks import (
     CLEARANCE,
@@ -47,12 +49,12 @@ from tribodyn.papers.cheng_2022.reduced.checks import (
     notes,
     warnings,
 )
+from tribodyn.papers.cheng_2022.reduced.drives import run_segments
 from tribodyn.papers.cheng_2022.reduced.key_results import error_growth, output_columns, output_fields
 from tribodyn.papers.cheng_2022.reduced.loads import terms_of
 from tribodyn.papers.cheng_2022.reduced.parameters import AirLoads, Inertias, Vsv
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
 from tribodyn.papers.cheng_2022.reduced.reach import at_limit, ideal_at
-from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
 from tribodyn.papers.cheng_2022.reduced.times import following, output_times, snapshots
 from tribodyn.results.dataset import CARRIED
 from tribodyn.wear import loaded_depth

@@ -6,16 +6,16 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.problem import Following
 from tribodyn.kernels.vsv.quantities import OBSERVED
-from tribodyn.mechanisms.playback import distinct
 from tribodyn.mechanisms.shaft_loads import crossings
+from tribodyn.mechanisms.workload import distinct
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
+from tribodyn.papers.cheng_2022.reduced.drives import ideal_motion, run_segments
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion, Lengths, TableDrive, Vsv
 from tribodyn.papers.cheng_2022.reduced.reach import ideal_vane_angle
-from tribodyn.papers.cheng_2022.reduced.run_segments import ideal_motion, run_segments
 
 #: Quantities whose peaks are kept where there are more steps than rows.
 _WATCHED: Final = tuple(

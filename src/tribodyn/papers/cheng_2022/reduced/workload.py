@@ -5,8 +5,7 @@ from typing import Final
 from tribodyn.kernels.joints.quantities import STATES
 from tribodyn.kernels.vsv.quantities import OBSERVED
 from tribodyn.mechanisms.bushing import grid_of
-from tribodyn.mechanisms.playback import AFTER_REVERSAL, EVEN, MOST_CLOSE
-from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
+from tribodyn.mechanisms.workload import AFTER_REVERSAL, EVEN, MOST_CLOSE, Keys, Workload, simulated_cycles
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 #: Steps of a reversal at ``rtol`` 1e-3, measured over 2 and 40 cycles and with drives of 1 and 10 rad/s.

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot, rms
 from tribodyn.validation.catalogue import ValidationSet

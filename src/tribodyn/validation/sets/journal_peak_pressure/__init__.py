@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 from scipy.optimize import root
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import from_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.lubrication import FilmState, film_state
 from tribodyn.mechanism.analyses.shaft_in_bore import Journal, equilibrium, journal_of

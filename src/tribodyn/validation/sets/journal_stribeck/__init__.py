@@ -6,10 +6,9 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import from_si
-from tribodyn.core.arrays import FloatArray
-from tribodyn.mechanism.analyses.shaft_in_bore import journal_of
-from tribodyn.mechanism.analyses.stribeck import equilibria
+from tribodyn.mechanism.analyses.shaft_in_bore import equilibria, journal_of
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied

@@ -22,8 +22,8 @@ from typing import Final, Literal, Protocol
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact.damping_factors import DAMPING_FACTORS
-from tribodyn.core.arrays import FloatArray
 from tribodyn.validation.base import Band, Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import ValidationSet, varied
 

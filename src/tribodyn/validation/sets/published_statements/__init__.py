@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import from_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanism.analyses.shaft_in_bore import equilibrium, journal_of
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate

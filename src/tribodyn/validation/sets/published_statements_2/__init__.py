@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import xarray as xr
 
-from tribodyn.core.arrays import FloatArray
+from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.simulation import simulate
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot

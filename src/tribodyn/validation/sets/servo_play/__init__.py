@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import number_in
-from tribodyn.core.arrays import FloatArray
 from tribodyn.studies.least_squares import FitParameter, LeastSquares, fit
 from tribodyn.validation.base import Comparison, Curve, Outcome, Plot
 from tribodyn.validation.catalogue import Input, ValidationSet

@@ -6,8 +6,8 @@ from typing import Final, cast
 import numpy as np
 import xarray as xr
 
+from mebdf.arrays import FloatArray
 from tribodyn.cases.units import from_si
-from tribodyn.core.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.simulation import simulate

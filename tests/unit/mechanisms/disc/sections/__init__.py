@@ -2,7 +2,7 @@
 
 from tribodyn.views.charts import Chart, ChartCurve, Panel
 from tribodyn.views.common import Overlay, scaled
-from tribodyn.views.events import series
+from tribodyn.views.playback import series
 from tribodyn.views.section import OVER_TIME, Chapter
 
 HEIGHT = Chart(

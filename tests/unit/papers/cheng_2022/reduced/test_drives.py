@@ -11,7 +11,7 @@ import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
-from tribodyn.papers.cheng_2022.reduced.run_segments import run_segments
+from tribodyn.papers.cheng_2022.reduced.drives import run_segments
 from tribodyn.papers.cheng_2022.reduced.system import vsv_of
 
 TIMES = np.linspace(0.0, 2.0 * math.pi, 65)

@@ -4,12 +4,9 @@ The C library chooses its functions by the processor, and they differ from versi
 compiled from operations that IEEE 754 defines to the bit: + − × ÷ and square root of double precision.
 """
 
-from mebdf.kernels.elementary.error_function import erfc
-from mebdf.kernels.elementary.exponential import exp, expm1, tanh
-from mebdf.kernels.elementary.hypotenuse import hypot
-from mebdf.kernels.elementary.inverse import acos, asin, atan, atan2
-from mebdf.kernels.elementary.logarithm import log, log1p, power
-from mebdf.kernels.elementary.trigonometric import cos, sin, tan
+from mebdf.kernels.elementary.doubled import hypot
+from mebdf.kernels.elementary.exponential import erfc, exp, expm1, log, log1p, power, tanh
+from mebdf.kernels.elementary.trigonometric import acos, asin, atan, atan2, cos, sin, tan
 
 __all__ = [
     "acos",

@@ -1,12 +1,15 @@
-"""Numbers as unevaluated sums of two: exact sums and products, and constants to twice the digits.
+"""Numbers as sums of two: exact sums and products; their 64 bits; the length of a vector of two components.
 
 Sums: Knuth, The Art of Computer Programming 2, section 4.2.2; products: Dekker (1971), Numer. Math. 18, 224.
 No fused multiply-add is used, which not every processor has.
 """
 
+import math
+import struct
 from fractions import Fraction
-from typing import Final
+from typing import Any, Final
 
+from mebdf.compiled.kernel import UNCOMPILED, Instruction
 from mebdf.kernels.jit import kernel
 
 _SPLITTER: Final = 134217729.0  #: 2²⁷ + 1.
@@ -56,3 +59,67 @@ def two_parts(exact: Fraction, bits: int = 0) -> tuple[float, float]:
     """Return a constant as a sum of two numbers; the first a multiple of 2^−bits where ``bits`` are given."""
     high = float(Fraction(round(exact * 2**bits), 2**bits)) if bits else float(exact)
     return high, float(exact - Fraction(high))
+
+
+MANTISSA: Final = 52  #: Bits of a mantissa.
+BIAS: Final = 1023  #: Offset of an exponent.
+FRACTION: Final = (1 << MANTISSA) - 1  #: Bits of the fraction of a number.
+ONE: Final = BIAS << MANTISSA  #: The bits of 1.
+SIGN: Final = -(1 << 63)  #: The sign bit.
+
+
+def _uncompiled_bits(number: float) -> int:
+    found: int = struct.unpack("<q", struct.pack("<d", number))[0]
+    return found
+
+
+def _uncompiled_number(bits: int) -> float:
+    found: float = struct.unpack("<d", struct.pack("<q", bits))[0]
+    return found
+
+
+_MODULE: Final = "mebdf.kernels.elementary.instructions"
+#: Return the bits of a number as a signed integer.
+bits_of: Final[Any] = _uncompiled_bits if UNCOMPILED else Instruction(_uncompiled_bits, _MODULE, "bits")
+#: Return the number with these bits.
+number_of: Final[Any] = (
+    _uncompiled_number if UNCOMPILED else Instruction(_uncompiled_number, _MODULE, "number")
+)
+
+
+_LARGE: Final = 2.0**500
+_SMALL: Final = 2.0**-400
+_SCALE: Final = 2.0**600
+#: A component below this share of the other one changes less than a tenth of the last digit.
+_FLAT: Final = 2.0**-28
+
+
+@kernel
+def hypot(x: float, y: float) -> float:
+    """Return √(x² + y²); infinite if one is, whatever the other."""
+    a, b = abs(x), abs(y)
+    if a == math.inf or b == math.inf:
+        return math.inf
+    if x != x or y != y:
+        return x + y
+    if a < b:
+        a, b = b, a
+    if b <= _FLAT * a:
+        return a
+    if a > _LARGE:
+        return _root(a / _SCALE, b / _SCALE) * _SCALE
+    if b < _SMALL:
+        return _root(a * _SCALE, b * _SCALE) / _SCALE
+    return _root(a, b)
+
+
+@kernel
+def _root(a: float, b: float) -> float:
+    """Return √(a² + b²), a ≥ b > 0, whose squares are neither too large nor too small."""
+    first, first_error = product_of(a, a)
+    second, second_error = product_of(b, b)
+    square, error = ordered_sum(first, second)
+    root = math.sqrt(square)
+    again, again_error = product_of(root, root)
+    rest = (square - again) - again_error + (error + first_error + second_error)
+    return root + 0.5 * rest / root

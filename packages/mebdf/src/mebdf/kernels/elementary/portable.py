@@ -9,14 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from mebdf.arrays import FloatArray
-from mebdf.kernels.elementary import (
-    error_function,
-    exponential,
-    hypotenuse,
-    inverse,
-    logarithm,
-    trigonometric,
-)
+from mebdf.kernels.elementary import doubled, exponential, trigonometric
 from mebdf.kernels.jit import entry, kernel
 
 _SIN, _COS, _TAN, _ASIN, _ACOS, _ATAN2, _EXP, _EXPM1, _LOG, _HYPOT, _POWER, _ERFC = range(12)
@@ -37,22 +30,22 @@ def _value(number: int, x: float, y: float) -> float:
     if number == _TAN:
         return trigonometric.tan(x)
     if number == _ASIN:
-        return inverse.asin(x)
+        return trigonometric.asin(x)
     if number == _ACOS:
-        return inverse.acos(x)
+        return trigonometric.acos(x)
     if number == _ATAN2:
-        return inverse.atan2(x, y)
+        return trigonometric.atan2(x, y)
     if number == _EXP:
         return exponential.exp(x)
     if number == _EXPM1:
         return exponential.expm1(x)
     if number == _LOG:
-        return logarithm.log(x)
+        return exponential.log(x)
     if number == _HYPOT:
-        return hypotenuse.hypot(x, y)
+        return doubled.hypot(x, y)
     if number == _POWER:
-        return logarithm.power(x, y)
-    return error_function.erfc(x)
+        return exponential.power(x, y)
+    return exponential.erfc(x)
 
 
 def _function(number: int) -> Callable[..., Any]:

@@ -1,4 +1,4 @@
-"""Settings of other packages in the working directory, which commands ignore.
+"""Threads of the linear algebra, and settings of other packages in the working directory.
 
 The working directory may hold files of strangers. With ``.numba_config.yaml`` numba takes machine code from
 any folder, with ``matplotlibrc`` Matplotlib runs any program, and netCDF's files name servers and passwords.
@@ -7,11 +7,32 @@ Scripts and notebooks that import this package are left as they are: there the d
 
 import os
 import sys
-from collections.abc import Sequence
-from contextlib import chdir, nullcontext
+from collections.abc import Iterator, Sequence
+from contextlib import chdir, contextmanager, nullcontext
+from functools import lru_cache
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from types import ModuleType
 from typing import Final
+
+from threadpoolctl import ThreadpoolController
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Have matrices factorised by one thread within the block.
+
+    Matrices of mechanisms are small. Several threads gain nothing there; beside other work they wait for each
+    other and take many times as long, and how many there are decides the last digits of sums.
+    """
+    with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
+        yield
+
+
+@lru_cache(maxsize=1)
+def _libraries(_modules: int) -> ThreadpoolController:
+    """Return the libraries of this process. The search takes milliseconds; only imports add libraries."""
+    return ThreadpoolController()
+
 
 #: Modules that read settings when they are imported, and the file that they look for.
 _FILES: Final = {"numba.core.config": ".numba_config.yaml", "matplotlib": "matplotlibrc"}
