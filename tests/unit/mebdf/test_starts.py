@@ -186,7 +186,7 @@ def test_consistent_values_of_many_equations_are_found(how):
 
 
 def test_values_of_many_equations_that_break_a_constraint_are_refused():
-    n = 701
+    n = 451
     matrix, mass, y0 = chain(n)
 
     def fun(t, y):
@@ -203,7 +203,7 @@ def test_values_of_many_equations_that_break_a_constraint_are_refused():
 
 
 def test_many_equations_without_a_consistent_value_are_named():
-    n = 701
+    n = 451
     matrix, mass, y0 = chain(n)
     y0[1::2] = 0.5 * (y0[:-1:2] + y0[2::2])
 

@@ -198,7 +198,7 @@ def test_the_default_tolerance_resolves_bronze_on_steel() -> None:
     case = td.load_case("slider-crank").replace(stiff)
     runs = [
         td.simulate(case.replace({"solver.rtol": case.solver.rtol * factor}))
-        for factor in (0.6, 0.75, 0.87, 1.0, 1.15, 1.33, 1.6)
+        for factor in (0.6, 0.87, 1.15, 1.6)
     ]
     told = [results.summarise(run) for run in runs]
     # Over these tolerances about 1e-4 peak pressures lie between 62 and 89 MPa and 0.7 % of the energy is

@@ -25,7 +25,8 @@ def run() -> xr.Dataset:
 
 @pytest.fixture
 def stored(run: xr.Dataset, tmp_path: Path) -> Path:
-    assert main(["run", "slider-crank", "--set", "run.duration=2 ms", "-o", str(tmp_path), "--quiet"]) == 0
+    quick = ["--set", "run.duration=2 ms", "--no-figures", "--no-report", "--quiet"]
+    assert main(["run", "slider-crank", *quick, "-o", str(tmp_path)]) == 0
     return tmp_path
 
 

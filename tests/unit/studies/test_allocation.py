@@ -174,7 +174,7 @@ guide = { type = "prismatic", between = ["ground", "slider"], point = "0, 150, 0
 """
 
 
-@pytest.mark.parametrize("model", [CASE, "press"])
+@pytest.mark.parametrize("model", [pytest.param(CASE, marks=pytest.mark.long), "press"])
 def test_optimum_of_machines_is_that_of_a_full_enumeration(model: str, tmp_path: Path) -> None:
     """Inverse dynamics: the moment is nearly linear in the masses, so that a choice has a normal law."""
     case = parse_case(PRESS, "press") if model == "press" else load_case(model)

@@ -1,7 +1,9 @@
 """What the sets return: every miss explained, numbers finite, pages complete."""
 
 import json
+from collections.abc import Iterable
 from functools import cache
+from typing import Any
 
 import pytest
 
@@ -11,8 +13,18 @@ from tribodyn.validation.report import Judged, as_json, as_page, as_text, by_kin
 
 LEAST_JUDGED = 40
 #: Sets of many runs: these tests are long, and ``make check`` runs them.
-SLOW = ("friction_damper_backlash", "cycloid_reducer_play")
-SETS = [pytest.param(name, marks=pytest.mark.long) if name in SLOW else name for name in NAMES]
+SLOW = (
+    *("cycloid_reducer_play", "friction_damper_backlash", "journal_stribeck", "oblique_impact"),
+    *("published_statements", "vsv_practice"),
+)
+#: A formula check, values of the library, and pull forces whose loads are not known.
+WITHOUT_NULL = ("servo_friction_models", "dry_liners", "vsv_practice")
+
+
+def over(names: Iterable[str]) -> Any:
+    """Run a test over sets."""
+    marked = [pytest.param(name, marks=pytest.mark.long) if name in SLOW else name for name in names]
+    return pytest.mark.parametrize("name", marked)
 
 
 @cache
@@ -21,7 +33,7 @@ def _judged(name: str) -> Judged:
     return Judged(one, one.run())
 
 
-@pytest.mark.parametrize("name", SETS)
+@over(NAMES)
 def test_every_miss_and_every_large_e_is_explained_and_nothing_else(name: str) -> None:
     judged = _judged(name)
     needed = {
@@ -63,14 +75,14 @@ def test_numbers_are_counted_by_kind_and_by_what_the_null_model_does() -> None:
     assert f"| {total} |" not in "\n".join(sets_table(judged))
 
 
-@pytest.mark.parametrize("name", SETS)
+@over(NAMES)
 def test_every_band_is_used(name: str) -> None:
     judged = _judged(name)
     used = {row.band.name for row in judged.outcome.comparisons if row.band is not None}
     assert used == set(judged.set.bands)
 
 
-@pytest.mark.parametrize("name", SETS)
+@over(NAMES)
 def test_names_of_numbers_are_unique_and_shown(name: str) -> None:
     judged = _judged(name)
     names = [row.name for row in judged.outcome.comparisons]
@@ -88,16 +100,15 @@ def test_enough_numbers_are_judged() -> None:
     assert sum(row.verdict is not Verdict.REPORTED for row in judged) >= LEAST_JUDGED
 
 
-#: A formula check, values of the library, and pull forces whose loads are not known.
-WITHOUT_NULL = ("servo_friction_models", "dry_liners", "vsv_practice")
-
-
-@pytest.mark.parametrize("name", [name for name in SETS if name not in WITHOUT_NULL])
+@over(name for name in NAMES if name not in WITHOUT_NULL)
 def test_a_null_model_stands_beside_every_number(name: str) -> None:
     assert all(row.null is not None for row in _judged(name).outcome.comparisons)
 
 
-@pytest.mark.parametrize(("name", "rows"), [("journal_stribeck", 3), ("servo_gear_friction", 1)])
+@pytest.mark.parametrize(
+    ("name", "rows"),
+    [pytest.param("journal_stribeck", 3, marks=pytest.mark.long), ("servo_gear_friction", 1)],
+)
 def test_what_was_chosen_with_the_values_known_is_reported_only(name: str, rows: int) -> None:
     judged = _judged(name)
     reported = [row for row in judged.outcome.comparisons if row.not_judged]
