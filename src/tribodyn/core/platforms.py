@@ -84,6 +84,15 @@ def give_back_large_blocks() -> None:
             ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, _LARGE)
 
 
+def give_back_memory() -> None:
+    """Have glibc give the system back what is free; it keeps most of what many small arrays took."""
+    if sys.platform == "linux":
+        import ctypes
+
+        with suppress(OSError, AttributeError):  # another C library has no such function
+            ctypes.CDLL(None).malloc_trim(0)
+
+
 def start_context() -> ForkServerContext | SpawnContext:
     """Return the way in which processes start."""
     import multiprocessing

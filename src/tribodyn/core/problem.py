@@ -138,6 +138,8 @@ class Problem:
     following: Following | None = None
     #: Length that no step exceeds [s]: what acts may swing faster than the states show.
     longest_step: float = math.inf
+    #: Order that formulas do not exceed, where stability decides and not smoothness; ``None`` for any.
+    largest_order: int | None = None
     #: Returns the solution where states are not integrated but known or in equilibrium; its arguments are the
     #: times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial value
     #: problem.

@@ -96,6 +96,7 @@ class _CompiledWalk(Walk):
             self.ask()
 
     def _new_state(self, t: float, t_end: float) -> MebdfState:
+        from mebdf.kernels.coefficients import MAX_K
         from mebdf.kernels.state import new_state
 
         problem = self.problem
@@ -108,6 +109,7 @@ class _CompiledWalk(Walk):
             outside=problem.algebra is not None,
             mass=self._mass,
             max_step=problem.longest_step,
+            largest_k=min(problem.largest_order or MAX_K + 1, MAX_K + 1) - 1,
         )
 
     @property

@@ -26,6 +26,7 @@ from tribodyn.mechanism.analyses.vibrations import Vibrations, vibrations_of, wi
 from tribodyn.mechanism.assembly import mechanism_problem
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.clearance_surfaces import material_of
+from tribodyn.mechanism.assembly.decompositions import forget_large
 from tribodyn.mechanism.assembly.output_values import MOTION, Motion, Output, outputs_of
 from tribodyn.mechanism.assembly.parts_by_number import Model, model_of
 from tribodyn.mechanism.assembly.passage import drive_through
@@ -126,6 +127,7 @@ class MechanismSystem:
         """The mechanism put together, its joints not worn, and led through its cycle."""
         found = self._assembled(None)
         passage = drive_through(found, self.case.span)
+        forget_large()
         if passage.finding is not None:
             raise InputError(passage.finding.text, key=passage.finding.key)
         return replace(found, strain=passage.warning)
@@ -210,6 +212,7 @@ class MechanismSystem:
         if not self._starts:
             wanted = self.case.run.start == "equilibrium" and self._analysis == "dynamic"
             self._starts.append(initial_state(self.assembly) if wanted else None)
+            forget_large()
         return self._starts[0]
 
     @cached_property

@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from mebdf.arrays import FloatArray, IntArray
+from tribodyn.core.platforms import give_back_memory
 from tribodyn.kernels import dense
 
 _BODY: Final = 6  #: Columns of a body.
@@ -240,6 +241,13 @@ def factors(matrix: FloatArray, rank: int | None = None) -> MultifrontalQR | Non
 def _factors(content: bytes, shape: tuple[int, int], rank: int | None) -> MultifrontalQR | None:
     found = MultifrontalQR(np.frombuffer(content).reshape(shape))
     return found if found.is_certain(0.0 if found.rank == rank else DEPENDENT) else None
+
+
+def forget_large() -> None:
+    """Let go of the factors of large matrices: no integration needs them, and they are larger than its data."""
+    if _factors.cache_info().currsize:
+        _factors.cache_clear()
+        give_back_memory()
 
 
 def null_space(matrix: FloatArray, rank: int) -> FloatArray:

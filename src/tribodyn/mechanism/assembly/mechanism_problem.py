@@ -16,9 +16,11 @@ from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.observe import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
+from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.ordering import n_blocks
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.drives_and_loads import GIVEN
 from tribodyn.mechanisms.bushing import Carried
 from tribodyn.mechanisms.shaft_loads import WAVE_STEPS
 
@@ -34,6 +36,9 @@ STATES: Final = (
 Tolerances = tuple[float, float, float, float]
 #: Sliding speed over the slip velocity up to which friction at rest stretches: 98 % of its limit.
 DEVELOPED: Final = 5.0
+#: Largest order of MEBDF that is stable along the imaginary axis: beams swing fast, and hardly damped.
+A_STABLE: Final = 4
+_MOMENTS: Final = 32  #: Parts of a run, or of its first cycle, at whose ends drives are looked at.
 
 
 def mechanism_problem(
@@ -80,6 +85,7 @@ def mechanism_problem(
         field_shape=(data.contact.nodes.shape[1] + data.films.wear_node.size,),
         algebra=None if dense else _algebra(data),
         longest_step=_shortest_wave(assembly.model.case) / WAVE_STEPS,
+        largest_order=A_STABLE if assembly.model.elastic else None,
     )
 
 
@@ -142,14 +148,43 @@ def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
 def _scales(assembly: Assembly, duration: float) -> FloatArray:
     """Return the scales of positions, orientations, velocities and angular velocities, shape (4,)."""
     size, length = float(assembly.data.parts.constants.size), length_scale(assembly)
-    state = assembly.state.reshape(-1, N_STATES)
-    speed = max(
-        float(np.max(np.linalg.norm(state[:, VELOCITY:TURNING], axis=1))),
-        size * float(np.max(np.linalg.norm(state[:, TURNING:], axis=1))),
-        float(np.sqrt(dense.norm(assembly.model.case.gravity) * size)),
-        size / duration,
-    )
+    state, slowest = assembly.state.reshape(-1, N_STATES), size / duration
+    falling = float(np.sqrt(dense.norm(assembly.model.case.gravity) * size))
+    speed = max(_fastest(state[:, VELOCITY:TURNING], state[:, TURNING:], size), falling, slowest)
+    if speed == slowest:
+        speed = max(speed, _driven(assembly, duration, size))
     return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])
+
+
+def _fastest(velocity: FloatArray, turning: FloatArray, size: float) -> float:
+    """Return the largest speed of bodies [m/s], from velocities and angular velocities, shape (n, 3) each."""
+    speeds, turns = (float(np.max(np.linalg.norm(of, axis=1))) for of in (velocity, turning))
+    return max(speeds, size * turns)
+
+
+def _driven(assembly: Assembly, duration: float, size: float) -> float:
+    """Return the largest speed that drives give the bodies [m/s].
+
+    Ideal joints take it to all bodies where these start. A force moves the mass of all over the size, and no
+    farther than that in a period.
+    """
+    model, speed, case = assembly.model, 0.0, assembly.model.case
+    system = System(model.counterpart, data=assembly.ideal_data)
+    system.adopt(assembly.state)
+    system.set_rank(assembly.ideal_rank if model.has_loops else len(system.rows))
+    moments = np.linspace(0.0, min(duration, case.period or duration), _MOMENTS + 1)
+    for system.t in moments.tolist():
+        system.move_with_drives(1.0)
+        speed = max(speed, _fastest(system.now.bodies.v[:-1], system.now.bodies.w[:-1], size))
+    mass = sum(body.mass for body in case.bodies.values())
+    for drive in case.drives.values():
+        coordinate, level = GIVEN[drive.gives]
+        signal = drive.signal.over_run(duration)
+        arm = size if coordinate == "angle" else 1.0
+        force = max(abs(signal.at(t)) for t in moments.tolist()) / arm if level == 2 else 0.0
+        farthest = 2.0 * math.pi * size / drive.period if drive.period else math.inf
+        speed = max(speed, min(math.sqrt(force / mass * size), farthest))
+    return speed
 
 
 def stored_energy(problem: Problem) -> float:

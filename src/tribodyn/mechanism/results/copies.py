@@ -122,25 +122,30 @@ def _hysteresis(dataset: xr.Dataset, numbers: list[int], scale: float) -> float:
     return widest
 
 
-_NUMBERS: Final[dict[str, tuple[str, str, Callable[[FloatArray], float]]]] = {
+def _sigma(error: FloatArray, time: FloatArray) -> float:
+    """Return the standard deviation over copies, root mean square over time: rows are not evenly spaced."""
+    variance = np.var(error, axis=1)
+    if time.size > 1:
+        variance = np.trapezoid(variance, time) / (time[-1] - time[0])
+    return float(np.sqrt(np.mean(variance)))
+
+
+_NUMBERS: Final[dict[str, tuple[str, str, Callable[[FloatArray, FloatArray], float]]]] = {
     "spread_max": (
         "Spread of copies, peak",
         "Largest difference of two copies at any time.",
-        lambda e: float(np.ptp(e, axis=1).max()),
+        lambda error, _: float(np.ptp(error, axis=1).max()),
     ),
-    "sigma": (
-        "Standard deviation of copies",
-        "Over copies, and root mean square over time.",
-        lambda e: float(np.sqrt(np.mean(np.var(e, axis=1)))),
-    ),
+    "sigma": ("Standard deviation of copies", "Over copies, and root mean square over time.", _sigma),
 }
 
 
 def _number(unit: str, name: str, dataset: xr.Dataset) -> float:
     """Return the largest number of all outputs of a unit that are repeated."""
     scale, reduce = ERROR_UNITS[unit][2], _NUMBERS[name][2]
+    time = settled(dataset, column(dataset, "time"))
     found = [
-        reduce(scale * settled(dataset, column(dataset, "output_error")[:, numbers]))
+        reduce(scale * settled(dataset, column(dataset, "output_error")[:, numbers]), time)
         for numbers in _groups(dataset, unit)
     ]
     return max(found, default=math.nan)
