@@ -10,7 +10,7 @@ import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
-from tribodyn.mechanisms.catalogue import parse_case
+from tribodyn.mechanisms.catalogue import MECHANISMS, parse_case
 
 RING: Final = """
 case = "mechanism"
@@ -207,3 +207,23 @@ def test_a_second_link_spares_the_first_actuator_its_force() -> None:
     np.testing.assert_allclose(np.abs(pull - spared), 20.0, rtol=0.01)
     with pytest.raises(InputError, match="drive one freedom"):
         td.simulate(parse_case(text + "\n" + link, "test").replace(few))
+
+
+@pytest.mark.parametrize(
+    ("drive", "power"),
+    [('position = { value = "0 mm", swing = "-40 mm", angular_frequency = "W rad/s" }', 1.0),
+     ('force = { value = "0 N", amplitude = "F N", angular_frequency = "1000 rad/s" }', 0.5)],
+)  # fmt: skip
+def test_velocities_are_resolved_by_what_drives_give(drive: str, power: float) -> None:
+    text = TEMPLATES["vsv-ring"].text
+    motion = next(line for line in text.splitlines() if line.startswith("position"))
+
+    def tolerances(factor: float, duration: float) -> np.ndarray:
+        given = drive.replace("W", f"{factor}").replace("F", f"{1e3 * factor}")
+        changed = text.replace(motion, given).replace("cycles = 1", f'duration = "{duration} s"')
+        few = parse_case(changed, "test").replace({"pattern.vanes.count": 2, "run.start": "centred"})
+        return MECHANISMS["mechanism"].system(few).problem(duration).atol.reshape(-1, 13)[0, 7:]
+
+    plain = tolerances(1.0, 20.0)
+    np.testing.assert_allclose(tolerances(1.0, 40.0), plain, rtol=0.01)
+    np.testing.assert_allclose(tolerances(4.0, 20.0), 4.0**power * plain, rtol=0.01)

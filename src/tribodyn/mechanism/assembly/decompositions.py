@@ -244,7 +244,7 @@ def _factors(content: bytes, shape: tuple[int, int], rank: int | None) -> Multif
 
 
 def forget_large() -> None:
-    """Let go of the factors of large matrices: no integration needs them, and they are larger than its data."""
+    """Let go of the factors of large matrices, which no integration needs: they are larger than its data."""
     if _factors.cache_info().currsize:
         _factors.cache_clear()
         give_back_memory()
