@@ -22,7 +22,7 @@ help:
 	@echo "make demo        run the built-in vane mechanism; results in $(DEMO)"
 	@echo "make kernels     compile the kernels, if they were edited"
 	@echo "make test        the whole suite but its longest tests"
-	@echo "make check       what takes longer: types, the paper in full, the manual, validation, the wheels with the README's commands"
+	@echo "make check       what takes longer: types, the paper in full, manual, validation, other systems, the wheels with the README's commands"
 	@echo "make check-long  the seventh of the longest tests that is today's"
 	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
 	@echo "make golden      store key results and messages anew"
@@ -52,7 +52,7 @@ SEVENTH := $(shell expr $$(date +%s) / 86400 % 7)
 check: ready $(VENV)/.docs lint
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
 	$(BIN)/tribodyn validate -o out/validation --quiet
-	$(PYTEST) tests/unit/validation tests/unit/docs
+	$(PYTEST) tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py
 	$(MAKE) docs
 	tools/try-wheel $(BIN)/python out/wheels
 	tools/try-bounds out/wheels

@@ -103,7 +103,8 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]
     return home, printed
 
 
-@pytest.mark.parametrize("system", ["win32", pytest.param("darwin", marks=pytest.mark.long)])
+@pytest.mark.long  # `make check` runs it
+@pytest.mark.parametrize("system", ["win32", "darwin"])
 def test_commands_compute_the_same_elsewhere(system, here, tmp_path):
     home = tmp_path / "Jörg Müller"
     printed = done_in(home, system)

@@ -199,7 +199,7 @@ class JointLoads:
         return np.asarray((ends[1] - ends[0]) / (2.0 * step[k]))
 
     def kept(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return where the bodies are since they were looked at, for :meth:`restore`."""
+        """Return the place of the bodies since they were looked at, for :meth:`restore`."""
         return self.state.copy(), self.way.copy(), self.travelled.copy()
 
     def restore(self, kept: tuple[FloatArray, FloatArray, FloatArray], factor: float) -> None:
