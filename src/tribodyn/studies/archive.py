@@ -158,12 +158,19 @@ _NAMED: Final = 5
 def remarks(plan: SweepPlan, summaries: Mapping[str, Summary]) -> list[str]:
     """Return notes on points of a plan where they differ: some have elastic bodies as they needed them."""
     notes = {point.label: summaries.get(point.name, {}).get("notes") for point in plan.points}
-    softer = [label for label, of_one in notes.items() if isinstance(of_one, list) and YIELDED in of_one]
-    if len(softer) in (0, len(notes)):
+    return remark(
+        [label for label, of_one in notes.items() if isinstance(of_one, list) and YIELDED in of_one],
+        len(notes),
+    )
+
+
+def remark(softer: Sequence[str], points: int) -> list[str]:
+    """Return a note on the points that have elastic bodies, by their labels, if some of all points do not."""
+    if len(softer) in (0, points):
         return []
     named = "; ".join(softer[:_NAMED]) + ("; ..." if len(softer) > _NAMED else "")
     return [
-        f"{len(softer)} of {len(notes)} points have elastic bodies, since asperities alone do not carry "
+        f"{len(softer)} of {points} points have elastic bodies, since asperities alone do not carry "
         f'them; bulk = "conformal" gives them to all: {named}'
     ]
 

@@ -25,9 +25,11 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
+from tribodyn.mechanisms.self_checks import YIELDED
 from tribodyn.results.store import write_bytes, write_text
 from tribodyn.simulation import simulate
 from tribodyn.studies import least_squares
+from tribodyn.studies.archive import remark
 from tribodyn.studies.measured import Experiment, MeasuredCurve, MeasuredNumber
 from tribodyn.studies.search import key_range
 from tribodyn.studies.variation import written
@@ -86,6 +88,8 @@ class Calibration:
     directory: Path | None = None  #: Where evaluations are kept; None keeps them in memory only.
     note: Callable[[str], None] = lambda text: None  #: Receives a line for each evaluation.
     known: dict[str, list[float]] = field(default_factory=dict)
+    #: Of these, the ones with elastic bodies that the case does not ask for.
+    softer: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         """Refuse settings of fitted keys, and read the evaluations of an earlier fit."""
@@ -141,6 +145,10 @@ class Calibration:
             self.known[name] = self._evaluated(values)
             self._keep(name)
         return np.array(self.known[name])
+
+    def remarks(self) -> list[str]:
+        """Return a note on values of the keys with elastic bodies, where others have none."""
+        return remark([self._words(json.loads(name)) for name in sorted(self.softer)], len(self.known))
 
     def residuals(self, given: Mapping[str, float]) -> FloatArray:
         """Return differences over the noise at shares of the ranges, plus one, by path, shape (n,)."""
@@ -207,11 +215,13 @@ class Calibration:
         low, high = (self.keys[which].value(end - 1.0) for end in ends)
         return low, high
 
-    def _evaluated(self, values: list[float]) -> list[float]:
-        words = ", ".join(
+    def _words(self, values: Sequence[float]) -> str:
+        return ", ".join(
             f"{one.key.path} = {one.text(value)}" for one, value in zip(self.keys, values, strict=True)
         )
-        self.note(f"run {len(self.known) + 1}: {words}")
+
+    def _evaluated(self, values: list[float]) -> list[float]:
+        self.note(f"run {len(self.known) + 1}: {self._words(values)}")
         return [
             value
             for which, experiment in enumerate(self.experiments)
@@ -227,6 +237,8 @@ class Calibration:
             raise
         except TribodynError:
             return lost
+        if YIELDED in json.loads(run.attrs.get("notes", "[]")):
+            self.softer.add(json.dumps(values))
         return lost if run.attrs.get("failure") else [float(value) for value in experiment.data.computed(run)]
 
     def _keep(self, name: str) -> None:
@@ -237,7 +249,8 @@ class Calibration:
             write_text(path, json.dumps({"fingerprint": self.fingerprint}) + "\n")
         computed = [value if math.isfinite(value) else None for value in self.known[name]]
         with path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps({"values": json.loads(name), "computed": computed}) + "\n")
+            softer = {"elastic": True} if name in self.softer else {}
+            file.write(json.dumps({"values": json.loads(name), "computed": computed, **softer}) + "\n")
 
     def _read(self, path: Path) -> None:
         """Read the evaluations of an earlier fit; a last line that is half written is left out."""
@@ -259,6 +272,7 @@ class Calibration:
                     key="--output",
                 )
             self.known[json.dumps(values)] = computed
+            self.softer |= {json.dumps(values)} if entry.get("elastic") is True else set()
 
 
 def _cost(found: least_squares.LeastSquares) -> float:

@@ -15,6 +15,7 @@ import xarray as xr
 import tribodyn as td
 from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.self_checks import YIELDED
 from tribodyn.studies import Sampling, calibration, fit_report, posterior
 from tribodyn.studies.calibration import EVALUATIONS, Calibration, VariedKey
 from tribodyn.studies.fit_report import statements
@@ -275,6 +276,25 @@ def test_runs_that_failed_are_kept_as_such(tmp_path: Path) -> None:
     fit._keep(name)
     assert "NaN" not in (tmp_path / EVALUATIONS).read_text(encoding="utf-8")
     assert np.isnan(_fit(data, tmp_path).known[name]).all()
+
+
+def test_values_with_elastic_bodies_are_named_also_by_a_fit_that_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def softer(case):
+        found = _model(case)
+        return found.assign_attrs(notes=json.dumps([YIELDED] if case.joint.clearance > 50e-6 else []))
+
+    monkeypatch.setattr(calibration, "simulate", softer)
+    data = _read(_file(tmp_path, "swing"))
+    fit = _fit(data, tmp_path)
+    fit.computed([0.5, 0.5])
+    assert fit.remarks() == []
+    fit.computed([0.9, 0.5])
+    for one in (fit, _fit(data, tmp_path)):
+        (note,) = one.remarks()
+        assert note.startswith("1 of 2 points have elastic bodies")
+        assert note.endswith(": joint.clearance = 55 um, joint.friction_coefficient = 0.175")
 
 
 def test_runs_with_settings_of_their_own_determine_what_one_does_not(tmp_path: Path) -> None:

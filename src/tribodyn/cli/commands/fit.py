@@ -94,7 +94,7 @@ def execute(args: Namespace) -> int:
         found = fit.fitted(args.starts)
         profiles = None if args.no_profiles else [fit.profile(found, k) for k in range(len(keys))]
         samples = None if args.posterior is None else posterior.sample(fit, found, args.posterior)
-        words = statements(fit, found) + ([] if samples is None else samples.statements)
+        words = statements(fit, found) + ([] if samples is None else samples.statements) + fit.remarks()
         fitted = fitted_keys(fit, found, profiles, samples)
         save(fit, found, fitted, words, directory.path)
         if samples is not None:
