@@ -12,7 +12,8 @@ from tribodyn.workbench.controls import controls
 from tribodyn.workbench.edits import addable, removable
 from tribodyn.workbench.variant import SAVED, Origin
 
-DOWNLOADS: Final = (SAVED, "result.nc", "report.html")  #: Files of a run that a page can save.
+#: Files of a run that a page can save; the last one of cases whose copies scatter.
+DOWNLOADS: Final = (SAVED, "result.nc", "report.html", "builds.svg")
 
 
 def description(origin: Origin) -> dict[str, Any]:
@@ -31,7 +32,7 @@ def description(origin: Origin) -> dict[str, Any]:
         "templates": _templates(),
         "removable": removable(case),
         "addable": addable(case, mechanism),
-        "downloads": list(DOWNLOADS),
+        "downloads": list(DOWNLOADS if getattr(case, "scattered", None) else DOWNLOADS[:-1]),
     }
 
 

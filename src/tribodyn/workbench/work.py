@@ -31,6 +31,8 @@ EVENT, RESULT, FAILURE, GIVEN_UP = b"e", b"r", b"f", b"s"
 STOP: Final = b"{}"  #: Message that stops the work under way; a worker that has finished ignores it.
 _EVENTS_APART: Final = 0.5  #: Least time between two events [s].
 _GB: Final = 1e9
+#: Copies simulated at least for histograms of builds, and builds drawn from them.
+_COPIES, _DRAWS = 120, 20_000
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,25 @@ def report(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop)
         return render(dataset, (), Path(nothing)).encode("utf-8", "replace")
 
 
+def distribution(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
+    """Return histograms of builds, drawn from copies of a case, as SVG.
+
+    Raises Interrupted if ``stop`` was true before the end; else as :func:`tribodyn.studies.builds.builds`.
+    """
+    from io import BytesIO
+
+    from tribodyn.figures.builds import draw
+    from tribodyn.studies.builds import builds
+    from tribodyn.studies.sweep import Watcher
+
+    scattered = len(getattr(case, "scattered", ()))
+    copies = max(_COPIES, 4 * scattered**2, *(one.count for one in getattr(case, "pattern", {}).values()))
+    found = builds(case, copies=copies, draws=_DRAWS, workers=0, watcher=Watcher(stop=stop))
+    content = BytesIO()
+    draw(found.numbers, case.title).savefig(content, format="svg", metadata={"Date": None})
+    return content.getvalue()
+
+
 def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     from tribodyn.simulation import simulate
 
@@ -116,7 +137,8 @@ def _simulated(case: Case, progress: Progress, stop: Stop) -> xr.Dataset:
     return dataset
 
 
-WORK: Final = {"picture": picture, "result.nc": result, "report.html": report}  #: All kinds of work, by name.
+#: All kinds of work, by name.
+WORK: Final = {"picture": picture, "result.nc": result, "report.html": report, "builds.svg": distribution}
 
 
 def reply(limits: Limits, message: bytes, connection: Connection) -> bytes | None:

@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 from tests.unit.workbench.host import unframed
 
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.core.errors import TribodynError
+from tribodyn.mechanisms.catalogue import load_case, parse_case, template
+from tribodyn.studies.builds import NUMBERS
 from tribodyn.views.encode import packed
-from tribodyn.workbench import messages
+from tribodyn.workbench import messages, work
+from tribodyn.workbench.description import description
 from tribodyn.workbench.series import AROUND, slopes
 from tribodyn.workbench.server_state import Costs, KeptRuns
+from tribodyn.workbench.variant import Origin
 
 
 def test_arrays_stand_where_the_header_says_at_multiples_of_eight():
@@ -76,3 +80,16 @@ def test_one_run_that_the_machine_held_up_does_not_end_a_drag():
     for _ in range(3):
         costs.note(case, 9.0)
     assert 8.9 < costs.expected(case) < 9.1
+
+
+def test_of_cases_whose_copies_scatter_a_page_can_save_histograms_of_builds(monkeypatch):
+    monkeypatch.setattr(work, "_COPIES", 9)
+    monkeypatch.setattr(work, "_DRAWS", 400)
+    text = template("vsv-ring").replace('elastic = "beam"\n', "")
+    origin = Origin(parse_case(text, "ring").replace({"pattern.vanes.count": 3}), "ring")
+    assert "builds.svg" in description(origin)["downloads"]
+    assert "builds.svg" not in description(Origin(load_case("vsv"), "vsv"))["downloads"]
+    drawn = work.distribution(origin.case, {}, lambda reached: None, lambda: False)
+    assert drawn.count(b'id="axes_') == len(NUMBERS)
+    with pytest.raises(TribodynError, match="not computed"):
+        work.distribution(origin.case, {}, lambda reached: None, lambda: True)
