@@ -152,3 +152,12 @@ def test_sliding_takes_its_friction_from_turning(make_clearance: MakeClearance) 
     # The turning part of the slip is below 1e-3 of the sliding one.
     assert out[0] == pytest.approx(-MU * out[2], rel=1e-5)
     assert 0.0 < out[5] / spinning(data, d, 0.1)[5] < 2e-3
+
+
+def test_a_turning_collar_rubs_at_its_mean_radius(make_clearance: MakeClearance) -> None:
+    data = assemble([make_clearance("annulus", coefficient=MU)])
+    out = spinning(data, np.array([0.0, 0.0, -16e-6]), 5.0)
+    mean = 2.0 / 3.0 * (9e-3**3 - 6e-3**3) / (9e-3**2 - 6e-3**2)
+    assert out[2] > 0.0
+    # As for the pin.
+    assert out[5] == pytest.approx(-MU * out[2] * mean, rel=1e-6)

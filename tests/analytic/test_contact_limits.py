@@ -105,3 +105,23 @@ def test_works_are_the_integrals_of_their_pressures(table_1_pair: SurfacePair) -
         slope = (w[0] - 8.0 * w[1] + 8.0 * w[2] - w[3]) / (12.0 * d)
         # The difference errs by d⁴/30 of the fifth derivative, below 1e5 times P: 3e-9; rounding adds 1e-11.
         np.testing.assert_allclose(-slope, pressure, rtol=3e-9)
+
+
+def test_hard_surfaces_lose_nothing(elastic: SurfacePair) -> None:
+    law = RSDC(elastic)
+    np.testing.assert_array_equal(law.loss_factor(H_STAR), 0.0)
+    np.testing.assert_array_equal(law.damping_pressure(H_STAR), 0.0)
+
+
+def test_soft_surfaces_lose_everything(plastic: SurfacePair) -> None:
+    law = RSDC(plastic)
+    np.testing.assert_allclose(law.meant_restitution(H_STAR), 0.0, atol=1e-12)
+    # μ/(μ + 1) = 1, and C is then 3/4 of the elastic pressure; the tolerance is that of scipy's D.
+    np.testing.assert_allclose(law.damping_pressure(H_STAR), 0.75 * elastic_pressure(plastic), rtol=2e-9)
+
+
+def test_pressure_is_proportional_to_the_density_of_asperities(table_1_pair: SurfacePair) -> None:
+    denser = dataclasses.replace(table_1_pair, asperity_density=2.0 * table_1_pair.asperity_density)
+    for method in ("stiffness_pressure", "damping_pressure"):
+        single = getattr(RSDC(table_1_pair), method)(H_STAR)
+        np.testing.assert_allclose(getattr(RSDC(denser), method)(H_STAR), 2.0 * single, rtol=1e-14)

@@ -291,3 +291,26 @@ def test_the_integrators_of_scipy_hold_outputs_too() -> None:
     ours = td.simulate(drawn)
     theirs = td.simulate(drawn.case().replace({"solver.name": "radau"}))
     assert theirs["joint_angle"].values == pytest.approx(ours["joint_angle"].values, abs=1e-7)
+
+
+def test_a_measured_angle_counts_whole_turns() -> None:
+    drawn = wheel("1 s", output_interval="10 ms").drive("motor", "axle", speed="300 rpm")
+    drawn.body("pointer", mass="1 kg", centre="1, 0, 0 m", inertia=f"1, 1, {INERTIA} kg m^2")
+    drawn.revolute("free", "ground", "pointer", point="1, 0, 0 m", axis=[0, 0, 1])
+    drawn.controller("copy", joint="free", sampling_time="20 ms").output(
+        "turned", "wheel", quantity="angle", along=[0, 0, 1]
+    )
+    seen: list[float] = []
+    td.simulate(drawn, controllers={"copy": lambda turned: seen.append(turned) or 0.0})
+    assert seen[-50:] == pytest.approx(10.0 * math.pi * 0.02 * np.arange(50), abs=1e-9)
+
+
+def test_a_controller_and_a_table_whose_instants_meet_have_one_breakpoint_there() -> None:
+    # 0.3 s as 3 · 0.1 s, and as the knot of a table.
+    drawn = wheel("0.5 s", output_interval="10 ms").controller(
+        "servo", joint="axle", angle="0.1 rad", angle_gain="1 N m/rad", sampling_time="100 ms"
+    )
+    ramp = {"times": "0, 0.3, 0.3, 0.5 s", "values": "0, 1, 1, 0 N m", "interpolation": "linear"}
+    drawn.load("push", "wheel", moment_z=ramp)
+    # Work is integrated by parabolas over steps, which here are as long as a ramp.
+    balanced(td.simulate(drawn), 1e-4)

@@ -160,3 +160,11 @@ def test_what_is_missed_in_paper_is_work_on_opening_joints(make_vsv):
     missed, scale = clearance(run)
     assert abs(missed[-1]) > 0.5 * scale
     assert missed[-1] == pytest.approx(-trapezoid(opening, times), rel=0.01)
+
+
+def test_heats_have_their_signs(two_cycles):
+    for name in ("work_friction", "work_collar_friction"):
+        assert two_cycles[name][-1] < 0.0
+    # The air opposes the motion, the drive pays for it; damping only takes.
+    assert two_cycles["work_loads"][-1] < 0.0 < two_cycles["work_drive"][-1]
+    assert (np.diff(two_cycles["heat_damping"]) >= -1e-12).all()

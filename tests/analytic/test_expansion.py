@@ -7,7 +7,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.core.errors import InputError
-from tribodyn.joints.expansion import Casing, expanded
+from tribodyn.joints.expansion import Casing, clearance_rates, expanded
 from tribodyn.joints.shapes import Cylinder
 from tribodyn.kernels.actions import NONE
 from tribodyn.papers.cheng_2022.reduced.equilibrium import equilibrium
@@ -147,3 +147,29 @@ def test_a_run_says_what_the_heat_did_to_the_material() -> None:
     assert "not 20 um. Of the material change surfaces.bushing.young_modulus by -14.3 %." in notes
     given = case.replace(tables | {"surfaces.bushing.young_modulus": "6.5 GPa"})
     assert "Of the material" not in str(td.simulate(given).attrs["notes"])
+
+
+def test_a_sleeve_of_the_casings_material_is_part_of_it() -> None:
+    alone = expanded(COLD, trunnion=0.0, bushing=2e-3)
+    bonded = expanded(COLD, trunnion=0.0, bushing=2e-3, casing=Casing(2e-3, THICKNESS, NU))
+    assert bonded.bore_radius == pytest.approx(alone.bore_radius, rel=1e-14)
+
+
+@pytest.mark.parametrize("casing", [None, CASING])
+def test_the_clearance_is_linear_in_the_strains(casing: Casing | None) -> None:
+    rates = clearance_rates(COLD, casing)
+    hot = expanded(COLD, trunnion=ALPHA_T * RISE, bushing=ALPHA_B * RISE, casing=casing)
+    strains = {"trunnion": ALPHA_T * RISE, "bushing": ALPHA_B * RISE, "casing": ALPHA_C * RISE}
+    gained = sum(rate * strains[part] for part, rate in rates.items())
+    assert hot.clearance == pytest.approx(60e-6 + gained, rel=1e-9)
+
+
+def test_a_constant_table_is_the_constant_temperature() -> None:
+    case = td.load_case("vsv").replace(EXPANSIONS | {"run.cycles": 0.1})
+    kept = case.replace({"temperature.trunnion": "100 degC", "temperature.bushing": "60 degC"})
+    trunnion = over_time("trunnion", "0, 0.2, 0.7 s", "100, 100, 100 degC")
+    tables = case.replace(trunnion | over_time("bushing", "0, 5 s", "60, 60 degC"))
+    first, second = td.simulate(kept), td.simulate(tables)
+    assert set(second) - set(first) == {"radial_clearance"}
+    for name in first:
+        np.testing.assert_array_equal(first[name].values, second[name].values, err_msg=str(name))

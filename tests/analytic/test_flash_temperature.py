@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.contact.surface_pair import Conductor, resistance
+from tribodyn.contact.surface_pair import Conductor, flash_temperature, resistance
 
 BODY = Conductor(conductivity=45.0, diffusivity=12e-6)
 RADIUS = 5e-6
@@ -76,3 +76,11 @@ def test_a_turning_journal_tells_it() -> None:
     slower = td.simulate(td.load_case("journal-dry").replace(known | {"drives.motor.speed": "50 rad/s"}))
     # At these speeds heat is conducted as at rest, in proportion to the speed.
     assert slower["flash_temperature"].values[0] == pytest.approx(0.5 * flash, rel=0.1)
+
+
+def test_heat_takes_the_better_way() -> None:
+    insulator = Conductor(1e-9, 1e-7)
+    alone = 1e6 * resistance(BODY, RADIUS, 2.0)
+    assert flash_temperature(1e6, RADIUS, 2.0, insulator, BODY) == pytest.approx(alone, rel=1e-9)
+    # Two equal bodies at rest take half each.
+    assert flash_temperature(1e6, RADIUS, 0.0, BODY, BODY) == pytest.approx(0.5e6 * RADIUS / 45.0, rel=1e-12)

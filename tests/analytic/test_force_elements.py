@@ -10,6 +10,7 @@ from scipy.special import ellipk, gamma
 
 import tribodyn as td
 from tribodyn.contact import DAMPING_FACTORS
+from tribodyn.core.errors import InputError
 from tribodyn.friction import FrictionLimit
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 
@@ -368,3 +369,19 @@ def test_a_spring_of_no_free_length_pulls_in_proportion_to_its_length(linear: bo
         drawn.nonlinear_spring("rubber", between=["ground", "block"], **keys)
     result = td.simulate(drawn)
     assert place(result) == pytest.approx(np.sin(20.0 * result["time"].values) / 20.0, abs=1e-8)
+
+
+def test_a_rotational_damper_alone_slows_a_wheel_exponentially() -> None:
+    result = td.simulate(
+        wheel("0.5 s", 10.0).torsion_spring("damper", joint="hinge", damping="0.01 N m s/rad")
+    )
+    spin = result["angular_velocity"].sel(body="wheel", axis="z").values
+    assert spin == pytest.approx(10.0 * np.exp(-0.01 / 2e-3 * result["time"].values), rel=1e-6)
+
+
+def test_a_distance_of_zero_is_refused() -> None:
+    drawn = slider("0.1 s")
+    points = {"first_point": "30, 0, 0 mm", "second_point": "0, 0, 0 mm"}
+    drawn.distance("rod", between=["ground", "block"], length="0 mm", **points)
+    with pytest.raises(InputError, match="spherical joint"):
+        td.simulate(drawn)

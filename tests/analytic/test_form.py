@@ -165,3 +165,8 @@ def test_measured_forms_of_a_case(tmp_path):
     assert gap.min() == pytest.approx(-1e-6, abs=2e-8)
     assert not td.simulate(case).attrs["failure"]
     assert parse_case(case.to_toml(), "again") == case
+
+
+def test_the_film_knows_no_form():
+    with pytest.raises(InputError, match="oil film"):
+        td.load_case("journal-oil").replace({"joints.bearing.clearance.form.crown": "1 um"})

@@ -1,12 +1,15 @@
 """What must not matter to a run: how often it is done, how often it is looked at, how lengths are spelled."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from tests.journals import BORE, journal, loads
 
 from mebdf.arrays import FloatArray
+from tribodyn.joints import BushingJoint
+from tribodyn.joints.bushing import joint_wrench
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import write_run
 from tribodyn.simulation import simulate
@@ -97,3 +100,30 @@ def test_a_journal_follows_a_load_that_is_turned(kind: str, angle: float, agree:
     for name, vectors in here.items():
         off = np.linalg.norm(there[name] - vectors @ rotation.T, axis=1)
         assert off.max() <= agree * np.linalg.norm(vectors, axis=1).max(), name
+
+
+def test_the_path_integrals_do_not_depend_on_the_rows(base):
+    often = run(run__output_interval="1 ms")
+    for name in ("energy_damping", "energy_friction", "energy_drive"):
+        assert often[name].values[-1] == pytest.approx(base[name].values[-1], rel=1e-5)
+
+
+def test_the_names_of_the_nodes_do_not_matter(make_joint: Callable[..., BushingJoint]) -> None:
+    """A worn bushing and its memory of contact, with the trunnion in it, all turned by whole nodes."""
+    joint, nodes = make_joint(), 7
+    random = np.random.default_rng(8)
+    wear = 2e-6 * random.random(joint.field_shape)
+    entry = random.choice([0.0, 1e-3, 4e-3], size=joint.field_shape)
+    angle = 2.0 * math.pi * nodes / joint.grid.theta
+    rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    lean = np.array([6e-4, -3e-4])
+    here = np.concatenate([(13e-6, -9e-6), np.arctan(lean)[::-1], np.zeros(4)])
+    there = np.concatenate([rotation @ here[:2], np.arctan(rotation @ lean)[::-1], np.zeros(4)])
+    before = joint_wrench(joint.data(wear), here, omega=0.3, entry_velocity=entry)
+    worn = joint.data(np.roll(wear, nodes, axis=1))
+    after = joint_wrench(worn, there, omega=0.3, entry_velocity=np.roll(entry, nodes, axis=1))
+    turned = np.concatenate([rotation @ before[:2], (rotation @ before[[3, 2]])[::-1], before[4:]])
+    # Cosines of the nodes' angles are rounded; pressure is that rounding over a third of a micrometre.
+    np.testing.assert_allclose(after, turned, rtol=1e-9)
+    moved = joint_wrench(joint.data(wear), there, omega=0.3, entry_velocity=entry)
+    assert np.abs(moved / turned - 1.0).max() > 1e-3

@@ -108,3 +108,35 @@ def test_friction_moment_of_the_paper(make_joint, table_1_pair, sign):
     load = line_load(table_1_pair, eccentricity, lambda theta: 1.0)
     assert found["M_jf"] == pytest.approx(sign * 0.1 * R_B * load, rel=2e-6)
     assert (found["F_fx"], found["F_fy"], found["M_fx"], found["M_fy"]) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_a_centred_trunnion_in_a_wide_clearance_feels_nothing(make_joint):
+    # 20 µm are 12 σ, beyond the contact law's 8.
+    y = state(rates=(1e-3, -2e-3, 0.1, 0.2))
+    assert not joint_wrench(make_joint().data(), y, omega=0.3).any()
+    assert seen(make_joint().data(), y)["separation_min"] == pytest.approx(C)
+
+
+def test_uniform_wear_is_clearance(make_joint):
+    depth = 3e-6
+    joint, wider = make_joint(20e-6), make_joint(23e-6)
+    y = state(17e-6, 9e-6, 2e-4, -1e-4, rates=(1e-3, 0.0, 0.01, 0.0))
+    worn = joint_wrench(joint.data(np.full(joint.field_shape, depth)), y, omega=0.2)
+    expected = joint_wrench(wider.data(), y, omega=0.2)
+    # The wider bushing also has the wider bore; its area is that of the kernel.
+    np.testing.assert_allclose(worn / R_B, expected / (R_J + 23e-6), rtol=1e-12)
+
+
+def test_wear_relieves_only_where_it_is(make_joint):
+    joint = make_joint()
+    y = state(-19e-6)
+    whole = joint_wrench(joint.data(), y)
+    depth = np.zeros(joint.field_shape)
+    depth[:, 40:56] = 5e-6  # opposite to the contact at θ = 0
+    np.testing.assert_array_equal(joint_wrench(joint.data(depth), y), whole)
+    depth = np.zeros(joint.field_shape)
+    depth[joint.z > 0.0] = 50e-6
+    half = joint_wrench(joint.data(depth), y)
+    assert half[0] == pytest.approx(0.5 * whole[0], rel=1e-12)
+    # What is left carries at z < 0: M_y = −∬z dF_x > 0, with the arm l_z/4.
+    assert half[3] == pytest.approx(0.25 * LENGTH * half[0], rel=5e-3)  # Gauss nodes of half an interval

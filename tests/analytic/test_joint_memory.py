@@ -83,3 +83,33 @@ def test_approaching_at_the_entry_speed_adds_the_whole_coefficient(make_joint, c
     assert total(joint, 2.0, 3e-3, 3e-3)[1] == pytest.approx(9.287e6 + 5.930e6, rel=2e-4)
     assert total(joint, 0.0, 3e-3, 3e-3)[1] == pytest.approx(518.2e6 + 407.3e6, rel=2e-4)
     assert total(joint, 0.0, 1.5e-3, 3e-3)[1] == pytest.approx(518.2e6 + 407.3e6 / 2.0, rel=2e-4)
+
+
+def middle(joint):
+    """Return the index of the node where the gap is smallest."""
+    return joint.grid.z // 2, joint.grid.theta // 2
+
+
+def test_it_is_kept_in_contact_and_forgotten_outside(make_joint):
+    joint = make_joint()
+    data, node = joint.data(), middle(joint)
+    memory = new_memory(data)
+    accept(data, memory, at(3.9, joint.roughness, v_x=5e-3))
+    for depth, speed in ((2.0, 3e-3), (1.0, 0.0), (3.9, -8e-3)):
+        accept(data, memory, at(depth, joint.roughness, v_x=speed))
+        assert memory.entry_velocity[node] == pytest.approx(5e-3)
+    accept(data, memory, at(4.1, joint.roughness, v_x=-8e-3))
+    assert not memory.entry_velocity.any()
+    accept(data, memory, at(3.9, joint.roughness, v_x=2e-3))
+    assert memory.entry_velocity[node] == pytest.approx(2e-3)
+
+
+def test_a_worn_point_enters_later(make_joint):
+    joint = make_joint()
+    node = middle(joint)
+    wear = np.zeros(joint.field_shape)
+    wear[node] = joint.roughness
+    memory = new_memory(joint.data())
+    entry = accept(joint.data(wear), memory, at(3.5, joint.roughness, v_x=5e-3), 0.0)
+    assert entry[node] == 0.0
+    assert entry[node[0], node[1] + 1] > 0.0

@@ -99,3 +99,11 @@ def test_errors_by_the_direction_of_motion() -> None:
 def test_a_limit_of_another_quantity_is_refused(key: str, said: str) -> None:
     with pytest.raises(TribodynError, match=said):
         press().output("off", "slider", along=[1, 0, 0], **{key: "1 deg"}).case()
+
+
+def test_bore_and_shaft_live_longer_than_what_both_wear_off() -> None:
+    # Rates of 4 to 1: the bore takes 4/5 of the depth, the shaft 1/5.
+    numbers = summarise(worn(**{"wear.depth_limit": "2 um", "wear.partner_wear_rate": "2.5e-14 m^2/N"}))
+    both = numbers["wear_life_cycles_wrist"]
+    assert numbers["bore_life_cycles_wrist"] == pytest.approx(both / 0.8)
+    assert numbers["shaft_life_cycles_wrist"] == pytest.approx(both / 0.2)

@@ -258,3 +258,10 @@ REFUSED = {
 def test_what_is_no_load_is_refused_with_what_to_change(text: str) -> None:
     with pytest.raises(InputError, match=REFUSED[text]):
         td.simulate(disc(f'[loads.wrong]\nbody = "disc"\n{text}'))
+
+
+def test_components_and_a_direction_are_the_same_load() -> None:
+    parts = '[loads.push]\nbody = "disc"\npoint = "250, 0, 0 mm"\nframe = "body"\n'
+    one = td.simulate(disc(f'{parts}force = "5 N"\ndirection = [0.6, 0.8, 0]\nmoment_z = "0.1 N m"\n'))
+    two = td.simulate(disc(f'{parts}force_x = "3 N"\nforce_y = "4 N"\nmoment_z = "0.1 N m"\n'))
+    np.testing.assert_allclose(one.joint_angle, two.joint_angle, rtol=1e-9)

@@ -16,6 +16,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.parameters import Lengths
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
+from tribodyn.papers.cheng_2022.reduced.reach import closure
 from tribodyn.simulation import simulate
 
 #: Forward, a reversal at π, and backward; a switch that is not its own image; ringing followed closely.
@@ -144,3 +145,14 @@ def test_loads_oppose_a_vane_that_falls_with_the_crank_or_turns_back(start: str,
     assert np.all(result["energy_friction"].values >= 0.0)
     assert result.attrs["energy_residual"] < 0.01
     assert result.attrs["clearance_energy_residual"] < 0.01
+
+
+LENGTHS = Lengths(0.0477, 0.1424, 0.4, 0.05, 0.16, 0.5, np.radians(20.0), np.radians(55.0))
+
+
+def test_the_loop_closes_where_its_image_does() -> None:
+    theta_a = np.linspace(-0.5, 0.5, 11)[:, None]
+    theta_v = np.linspace(-1.0, 4.0, 51)
+    missing = closure(LENGTHS, theta_a, theta_v) - closure(image(LENGTHS), -theta_a, np.pi - theta_v)
+    # Rounding of lengths of half a metre, squared.
+    np.testing.assert_allclose(missing, 0.0, atol=1e-15)

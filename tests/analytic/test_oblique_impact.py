@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from tribodyn.validation.sets.oblique_impact import ImpactingSphere, TangentialLaw, _Compliant, rebound
@@ -44,3 +45,13 @@ def test_the_compliant_contact_is_that_of_cattaneo_and_mindlin(share: float) -> 
     force = -contact.impulse(depth, 1.0, share * last)
     normal = 4.0 / 3.0 * SPHERE.normal_modulus * math.sqrt(SPHERE.radius) * depth**1.5
     assert force == pytest.approx(mu * normal * (1.0 - (1.0 - share) ** 1.5), rel=2e-4)
+
+
+def test_no_friction_leaves_the_tangential_velocity() -> None:
+    smooth = ImpactingSphere(2.5e-3, 4000.0, (380e9, 70e9), (0.23, 0.25), friction=0.0, restitution=1.0)
+    assert rebound(smooth, 1.0, 0.5, "compliant").tangential == 1.0
+
+
+def test_halved_steps_change_little() -> None:
+    fine, coarse = (rebound(SPHERE, 3.9, 0.1, "compliant", steps=n).tangential for n in (4000, 2000))
+    np.testing.assert_allclose(fine, coarse, atol=3e-4)

@@ -235,3 +235,14 @@ def test_a_misdescribed_output_is_refused(keys: dict[str, object], said: str) ->
     body = str(keys.pop("body"))
     with pytest.raises(TribodynError, match=said):
         press().output("wrong", body, **keys).case()
+
+
+def test_ideal_joints_have_no_error() -> None:
+    result = td.simulate(press())
+    for output, most in (("way", 1e-7), ("lean", 1e-6), ("turn", 1e-12), ("stroke", 1e-7), ("speed", 1e-6)):
+        assert np.max(np.abs(of(result, "output_error", output))) < most, output
+
+
+def test_a_joint_that_is_not_there_cannot_be_followed() -> None:
+    with pytest.raises(TribodynError, match=r"outputs.way.follows: .*mian.*main"):
+        pushed("motor", follows="mian").case()

@@ -8,13 +8,21 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from mebdf.arrays import FloatArray
 from tribodyn.contact import RSDC, SurfacePair, law
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint, point_table
-from tribodyn.joints.bushing import joint_wrench, new_memory, pose_at
+from tribodyn.joints.bushing import (
+    contact_energy,
+    joint_jacobian,
+    joint_report,
+    joint_wrench,
+    new_memory,
+    pose_at,
+)
 from tribodyn.joints.point_contact import POINT_CONTACTS, johnson, lankarani_nikravesh
-from tribodyn.kernels.joints.bushing import update_entry_velocity
+from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 
 MakeJoint = Callable[..., BushingJoint]
 
@@ -114,3 +122,94 @@ def test_a_dashpot_is_refused(make_joint: MakeJoint, table_1_pair: SurfacePair) 
     with pytest.raises(InputError) as caught:
         point_table("point-johnson", chosen, make_joint().geometry)
     assert caught.value.key == "contact.damping_factor"
+
+
+#: What makes about the same difference in each argument.
+SCALE = np.array([1e-6, 1e-6, 1e-4, 1e-4, 1e-3, 1e-3, 0.1, 0.1, 0.17])
+
+
+STENCIL = np.arange(-3.0, 4.0)
+
+
+WEIGHTS = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+
+
+def draw(seed: int) -> tuple[FloatArray, FloatArray]:
+    """Return arguments, both ends or one of them in contact, and entry velocities of (18, 96) nodes."""
+    random = np.random.default_rng(seed)
+    arguments = random.uniform(-1.0, 1.0, 9) * [0, 0, 5e-4, 5e-4, 3e-3, 3e-3, 0.3, 0.3, 0.4]
+    angle, reach = random.uniform(0.0, 2.0 * np.pi), random.uniform(19e-6, 26e-6)
+    arguments[:2] = reach * np.cos(angle), reach * np.sin(angle)
+    memory = np.zeros((18, 96))
+    memory[[0, -1], 0] = random.choice([0.0, 1e-3, 3e-3], size=2)
+    return arguments, memory
+
+
+@pytest.mark.parametrize("friction", ["traction", "moment"])
+@pytest.mark.parametrize("name", POINT_CONTACTS)
+def test_derivatives(name: str, friction: str, make_joint: MakeJoint, table_1_pair: SurfacePair) -> None:
+    data = make_point(name, make_joint, table_1_pair, friction=friction, slip_velocity=1e-4).data()
+    compared = 0
+    for seed in range(60):
+        x, memory = draw(seed)
+        memory[memory == 0.0] = 2e-3  # without a memory there is a kink at v_min
+        state = dict(sign=1.0 if seed % 2 else -1.0, entry_velocity=memory)
+        found = joint_jacobian(data, x[:8], omega=x[8], **state)
+        columns = []
+        for k in range(9):
+            step = 1e-4 * SCALE[k]
+            points = x + np.outer(STENCIL * step, np.eye(9)[k])
+            values = [joint_wrench(data, p[:8], omega=p[8], **state) for p in points]
+            columns.append(WEIGHTS @ np.array(values) / step)
+        largest = np.maximum(np.abs(found * SCALE).max(axis=1), 1e-2)
+        error = np.abs(found - np.array(columns).T) * SCALE
+        # The table is a cubic on intervals of 5 nm, of which the stencil may pass one corner of third order.
+        assert (error.max(axis=1) <= 1e-5 * largest).all(), f"state {seed}"
+        compared += bool(found.any())
+    assert compared > 40
+
+
+def test_tilt_is_resisted(joint: BushingJoint) -> None:
+    data = joint.data()
+    y = np.array([0.0, 0.0, 3e-3, 2e-3, 0.0, 0.0, 0.0, 0.0])
+    wrench = joint_wrench(data, y)
+    assert wrench[:2] == pytest.approx(0.0, abs=1e-9)  # the ends push in opposite directions
+    assert wrench[2] * y[2] < 0.0
+    assert wrench[3] * y[3] < 0.0
+    np.testing.assert_allclose(wrench[2] / wrench[3], 1.5, rtol=1e-5)  # tan of 3 and 2 mrad
+
+
+def test_no_force_inside_the_clearance_circle(joint: BushingJoint) -> None:
+    y = np.array([14e-6, -14e-6, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
+    assert not joint_wrench(joint.data(), y, omega=1.0).any()
+    assert not joint_jacobian(joint.data(), y, omega=1.0).any()
+
+
+def test_report_agrees_with_the_wrench_and_its_power(joint: BushingJoint) -> None:
+    data = joint.data()
+    for seed in range(20):
+        x, memory = draw(seed)
+        y, omega = x[:8], x[8]
+        out = joint_report(data, y, omega=omega, entry_velocity=memory)
+        wrench = joint_wrench(data, y, omega=omega, entry_velocity=memory)
+        normal, friction = np.array([out["F_cx"], out["F_cy"]]), np.array([out["F_fx"], out["F_fy"]])
+        np.testing.assert_allclose(normal + friction, wrench[:2], rtol=1e-12, atol=1e-12)
+        tilts = np.array([out["M_jcx"], out["M_jcy"]]) + np.array([out["M_fx"], out["M_fy"]])
+        np.testing.assert_allclose(tilts, wrench[2:4], rtol=1e-12, atol=1e-12)
+        assert out["M_jf"] == pytest.approx(wrench[4], rel=1e-12, abs=1e-15)
+        rates = np.array([y[4], y[5], y[6] / np.cos(y[2]) ** 2, y[7] / np.cos(y[3]) ** 2, omega])
+        h = 1e-7
+        later, before = (
+            contact_energy(data, y + s * h * np.append(y[4:], np.zeros(4)), memory) for s in (1, -1)
+        )
+        rate = (later - before) / (2.0 * h)
+        power = out["friction_power"] - out["damping_power"] - rate
+        # The stored energy is differenced over 0.1 µs, in which its rate changes by some 1e-6.
+        assert wrench @ rates == pytest.approx(power, rel=1e-4, abs=1e-8)
+
+
+def test_a_point_has_no_pressure_field(joint: BushingJoint) -> None:
+    pressure = np.ones(joint.field_shape)
+    data = joint.data()
+    pressure_field(data, new_memory(data), pose_at(np.array([22e-6, *np.zeros(7)])), pressure)
+    assert not pressure.any()

@@ -432,3 +432,19 @@ def test_a_shaft_walks_along_its_bore_where_hysteresis_is_asked_for() -> None:
     np.testing.assert_allclose(pushed, -5.0, rtol=1e-4)
     jumped = td.simulate(case.replace({"friction.rest": False}))["position"].values[late, 0, 2]
     assert np.ptp(jumped) < 1e-7
+
+
+def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
+    result = td.simulate(carriage().case().replace({"springs.spring.stiffness": "0 N/mm"}))
+    assert "no static equilibrium: body carriage" in result.attrs["failure"]
+    assert result.sizes["time"] == 0
+
+
+def test_superposition_has_no_errors_of_velocities() -> None:
+    # It displaces bodies; what that is for a velocity is the displacement, in another unit.
+    drawn = press(radius="9.5 mm", radial="20 um", length="20 mm", axial="50 um")
+    result = td.simulate(drawn.case().replace({"run.analysis": "kinematic"}))
+    for output, known in (("speed", False), ("rate", False), ("way", True), ("lean", True)):
+        place = result["output"].values.tolist().index(output)
+        estimate = column(result, "error_estimate")[:, place, result["joint"].values.tolist().index("wrist")]
+        assert np.isfinite(estimate).all() == known, output

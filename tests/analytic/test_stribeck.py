@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mebdf.arrays import FloatArray
+from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint
 from tribodyn.lubrication import Film, FilmGrid, Roughness
 from tribodyn.mechanism.analyses.shaft_in_bore import Journal, equilibria, equilibrium
@@ -82,3 +83,24 @@ def test_a_mass_conserving_film_has_an_equilibrium(journal: Journal) -> None:
     film = replace(journal.film, cavitation="jfo", boundary="groove", grid=FilmGrid(64, 8))
     point = equilibrium(replace(journal, film=film), speed=400.0)
     assert point.film_share + point.contact_share == pytest.approx(1.0, abs=1e-6)
+
+
+def test_the_curve_does_not_depend_on_where_it_starts(curve: Curve, journal: Journal) -> None:
+    back = curve_of(journal, SPEEDS[::-11])
+    picked = curve["friction_coefficient"][::-11]
+    assert back["friction_coefficient"] == pytest.approx(picked, rel=1e-8)
+
+
+def test_turning_the_other_way_mirrors_the_attitude(journal: Journal) -> None:
+    forth, back = equilibrium(journal, speed=100.0), equilibrium(journal, speed=-100.0)
+    along = np.array([200.0, 100.0]) / math.hypot(200.0, 100.0)
+    across = np.array([-along[1], along[0]])
+    # The grid has no mirror axis along the load: the difference is that of the quadrature.
+    assert back.centre @ along == pytest.approx(forth.centre @ along, rel=1e-4)
+    assert back.centre @ across == pytest.approx(-forth.centre @ across, rel=1e-4)
+    assert back.film[4] == pytest.approx(-forth.film[4], rel=1e-4)
+
+
+def test_no_load_no_curve(journal: Journal) -> None:
+    with pytest.raises(InputError, match="needs a load"):
+        equilibria(replace(journal, load=(0.0, 0.0)), [1.0])

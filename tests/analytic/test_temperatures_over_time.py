@@ -150,3 +150,13 @@ def test_what_cannot_be_is_refused(name: str) -> None:
     with pytest.raises(InputError, match=words) as caught:
         td.check(case.replace(changes))
     assert caught.value.key.startswith(f"{WARM}{key}")
+
+
+def test_a_constant_table_is_the_constant_temperature() -> None:
+    kept = hanging("revolute").replace({f"{WARM}trunnion": "100 degC", f"{WARM}bushing": "60 degC"})
+    tables = over_time("trunnion", "0, 0.2, 0.7 s", "100, 100, 100 degC")
+    tables |= over_time("bushing", "0, 5 s", "60, 60 degC")
+    first, second = td.simulate(kept), td.simulate(hanging("revolute").replace(tables))
+    assert set(second) - set(first) == {"radial_clearance", "energy_expansion"}
+    for name in ("displacement", "reaction_force", "clearance", "pressure_peak"):
+        np.testing.assert_allclose(second[name].values[-1], first[name].values[-1], rtol=1e-6)

@@ -9,11 +9,13 @@ import xarray as xr
 import tribodyn as td
 from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
+from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanism.sections.charts import joint_forces
 from tribodyn.mechanism.sections.copies import COPIES, around
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import summarise
+from tribodyn.views.section import angle_of, coordinates
 
 RIGID: Final = 'elastic = "beam"\n'
 
@@ -87,3 +89,23 @@ def test_vanes_stand_around_their_axis_with_the_worst_one_marked() -> None:
     assert line.x == pytest.approx(0.0, abs=1e-9 * one.span)
     assert line.values == pytest.approx([one.middle - one.low[2], one.middle - one.high[2]])
     assert np.argmax(np.maximum(one.high, -one.low)) == 2
+
+
+def test_the_pull_of_vanes_is_that_of_one_times_their_number(equal: xr.Dataset) -> None:
+    """Two vanes and four: forces of the ring's own inertia cancel from the difference."""
+    two = td.simulate(ring(2))
+    pull = [np.abs(late(found, "element_force")[:, 0]) for found in (two, equal)]
+    assert pull[1] == pytest.approx(2.0 * pull[0], rel=2e-2)
+
+
+def test_a_limit_is_of_what_the_drive_gives() -> None:
+    with pytest.raises(InputError, match="the limit of this drive is force_limit"):
+        ring(2, **{"drives.piston.torque_limit": "1 N m"})
+
+
+def test_charts_go_over_the_position_of_the_actuator(equal: xr.Dataset) -> None:
+    label, values = angle_of(equal, "cylinder")
+    assert label == "position of cylinder [mm]"
+    time = equal["time"].values
+    assert values == pytest.approx(-20.0 * (1.0 - np.cos(time)), abs=0.1)
+    assert coordinates(equal, 1.0)[0]["label"] == label

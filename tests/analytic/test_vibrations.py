@@ -8,6 +8,7 @@ import xarray as xr
 from tests.analytic.test_outputs import BAR, CRANK, ROD, of
 
 import tribodyn as td
+from tribodyn.core.errors import TribodynError
 from tribodyn.figures.style import INK, PALE
 from tribodyn.mechanism.figures import FIGURES
 from tribodyn.mechanisms.results import summarise
@@ -258,3 +259,19 @@ def test_shapes_of_modes_are_drawn_at_rest_and_displaced() -> None:
     )
     # The crank turns by 0.15 rad as drawn: its pin, rod and slider move by R times that.
     assert np.abs(moved - rest[-len(moved) :]).max() == pytest.approx(150.0 * CRANK, rel=1e-2)
+
+
+def test_a_mechanism_without_a_freedom_cannot_vibrate() -> None:
+    case = td.load_case("four-bar", {"run.analysis": "vibrations"})
+    ideal = {f"joints.{name}.clearance.ideal": "true" for name in case.joints if case.joints[name].clearance}
+    with pytest.raises(TribodynError, match="nothing can vibrate"):
+        td.simulate(case.replace(ideal))
+
+
+def test_only_the_lowest_modes_are_kept() -> None:
+    case = td.load_case("vsv-free", {"run.analysis": "vibrations", "run.positions": "2", "run.modes": "3"})
+    result = td.simulate(case)
+    found = frequencies(result)
+    assert found.shape == (3, 3)
+    assert np.all(np.diff(found, axis=1) >= 0.0)
+    assert column(result, "mode_share").sum(axis=2) == pytest.approx(np.ones((3, 3)))

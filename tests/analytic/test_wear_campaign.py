@@ -11,7 +11,7 @@ import pytest
 
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.results import summarise
-from tribodyn.simulation import simulate
+from tribodyn.simulation import simulate, wear
 
 COARSE = {"solver.grid.theta": 48, "solver.grid.z": 10, "run.output_interval": "20 ms", "run.impact_rows": 50}
 FAST_WEAR = {"wear.specific_wear_rate": "1.1e-12 m^2/N", "wear.cycles": 400, "wear.jump_limit": 0.5}
@@ -127,3 +127,48 @@ def test_what_one_cycle_hands_on_is_what_the_next_begins_with():
     assert float(still["wear_force_mean"][-1]) == pytest.approx(mean, rel=2e-3)
     assert still["wear_load_change"][-1] < 1e-3
     assert not still["wear_depth"].values.any()
+
+
+def test_volume_of_each_jump_is_the_rate_times_the_sliding_load(monkeypatch):
+    loads = []
+
+    class Watched(wear._Cycles):
+        def cycle(self, depth, carried, done):
+            found = super().cycle(depth, carried, done)
+            loads.append(float((self.system.nodes.area * found.sliding_load).sum()))
+            return found
+
+    monkeypatch.setattr(wear, "_Cycles", Watched)
+    case = vane(wear__cycles=60)
+    result = simulate(case)
+    jumps = result["wear_jump_cycles"].values
+    assert jumps.size >= 3
+    expected = case.wear.specific_wear_rate * jumps[:-1] * np.array(loads[1:-1])
+    # To rounding; asked for are 1e-10.
+    np.testing.assert_allclose(np.diff(result["wear_volume"].values), expected, rtol=1e-12)
+    area = 2.0 * np.pi / 48 * (6e-3 + 20e-6)
+    weights = 0.5 * 20e-3 * np.polynomial.legendre.leggauss(10)[1] * area
+    volume = float((result["wear_depth"].values[:, 1:-1] @ weights).sum())
+    assert volume == pytest.approx(float(result["wear_volume"][-1]), rel=1e-12)
+
+
+def test_with_less_wear_the_feedback_matters_less():
+    straight = campaign(wear__cycles=32, wear__feedback=False, wear__specific_wear_rate="1.1e-13 m^2/N")
+    assert straight.sizes["jump"] == 2
+    rate = deepest(straight) / 32
+    # Depths of 0.15, 0.07 and 0.04 roughnesses at the straight line, each reached in as many jumps.
+    shortfall = []
+    for cycles, limit in ((32, 0.08), (16, 0.04), (8, 0.02)):
+        worn = campaign(wear__cycles=cycles, wear__jump_limit=limit, wear__specific_wear_rate="1.1e-13 m^2/N")
+        assert worn.sizes["jump"] >= 4
+        shortfall.append(1.0 - deepest(worn) / (cycles * rate))
+    # In proportion, as h = ℓ ln(1 + s/ℓ) would have it; jumps of whole cycles leave some.
+    assert shortfall[0] / shortfall[1] == pytest.approx(2.0, rel=0.2)
+    assert shortfall[1] / shortfall[2] == pytest.approx(2.0, rel=0.2)
+    assert 0.0 < shortfall[2] < 0.03
+
+
+def test_a_limit_that_is_not_reached_is_a_warning():
+    result = campaign(wear__depth_limit="1 mm", wear__cycles=8)
+    assert "wear_life_cycles" not in result.attrs
+    assert "not worn out: at its last rate it would take" in result.attrs["warnings"]

@@ -13,7 +13,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import load_case
-from tribodyn.report import write
+from tribodyn.report import ComparedRun, write, write_comparison
 from tribodyn.studies import Sampling, make_plan
 from tribodyn.studies.archive import merge
 from tribodyn.views.playback import playback_times
@@ -348,3 +348,57 @@ def test_without_webgl_the_same_triangles_are_drawn(opened: Opened, report: Path
     reader.page.get_by_role("button", name="Trunnion and bushing").click()
     reader.settle()
     reader.keep_picture("report-without-webgl")
+
+
+HOSTILE = '<img src=x onerror="alert(1)"><script>alert(2)</script> & </script> </title> {{ 7*7 }} \u2028 “µ”'
+
+
+def test_hostile_names_are_shown_as_text(opened: Opened, result: xr.Dataset, tmp_path: Path) -> None:
+    texts = {"title": HOSTILE, "contact_law": HOSTILE, "failure": HOSTILE, "case": HOSTILE}
+    hostile = result.assign_attrs(**texts, warnings=f'["{HOSTILE.replace(chr(34), chr(39))}"]')
+    hostile["F_cx"].attrs["long_name"] = HOSTILE
+    folder = tmp_path / "<b>run & more"
+    reader = opened(write(hostile, folder))
+    reader.draw_everything()
+    assert reader.page.locator("h1").text_content() == HOSTILE
+    assert reader.page.title().startswith("<img src=x")
+    assert reader.page.locator("img").count() == 0
+    # Data and our own script.
+    assert reader.page.locator("script").count() == 2
+
+
+def test_a_failed_run_shows_its_failure_and_time_first(
+    opened: Opened, result: xr.Dataset, tmp_path: Path
+) -> None:
+    partial = result.isel(time=slice(0, 300), frame=slice(0, 50)).assign_attrs(
+        failure="the step size became too small"
+    )
+    reader = opened(write(partial, tmp_path))
+    first = reader.page.locator("main > *").first
+    assert first.get_attribute("role") == "alert"
+    assert "the step size became too small" in first.inner_text()
+    assert f"stopped at t = {float(partial['time'][-1]):.4g} s" in first.inner_text()
+    reader.draw_everything()
+    assert _faults(reader) == []
+    reader.keep_picture("report-failed")
+
+
+def test_a_result_with_next_to_nothing_opens(opened: Opened, result: xr.Dataset, tmp_path: Path) -> None:
+    bare = result[["e_x", "e_y"]].isel(time=slice(0, 1))
+    reader = opened(write(bare, tmp_path))
+    assert reader.page.locator("h1").count() == 1
+    assert reader.overflow() == 0
+
+
+def test_a_comparison_shows_directory_names_as_text(
+    opened: Opened, result: xr.Dataset, tmp_path: Path
+) -> None:
+    runs = [ComparedRun("one", result), ComparedRun(HOSTILE, result.assign_attrs(case='case = "vsv"'))]
+    reader = opened(write_comparison(runs, tmp_path / "comparison.html"))
+    reader.draw_everything()
+    assert reader.page.locator("[data-widget]").count() == 6
+    assert reader.page.locator("img").count() == 0
+    assert reader.page.locator("button.legend").nth(1).text_content() == HOSTILE
+    assert reader.plot("overlay-force", "plot.plotted.data.panels.flatMap(panel => panel.curves).length") == 4
+    assert _faults(reader) == []
+    reader.keep_picture("comparison")

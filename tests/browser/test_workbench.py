@@ -827,3 +827,12 @@ def test_a_template_is_started_from(at: Opened, linkage: Workbench) -> None:
     _edit(person, "start")
     assert "Pendulum" in person.page.locator("h1").inner_text()
     assert person.page.evaluate("Object.keys(pageState.shown.sections)")
+
+
+def test_of_an_address_with_unknown_keys_the_page_says_so(at: Opened) -> None:
+    person = at("#joint.clearance=24um&joint.colour=red")
+    person.wait_until_shown({CLEARANCE: "24 um"})
+    assert "does not have" in person.page.locator("#error").inner_text()
+    person.type_into(CLEARANCE, "25 um")
+    person.wait_until_shown({CLEARANCE: "25 um"})
+    assert not person.page.locator("#error").is_visible()

@@ -1,5 +1,6 @@
 """Files made to harm whoever reads them: endless, huge, deep, or of another kind than their name says."""
 
+import difflib
 import json
 import os
 import random
@@ -17,6 +18,8 @@ from tests.faults.trial import tolerable, watched
 from tribodyn.cli.main import main
 from tribodyn.core import files
 from tribodyn.core.errors import InputError
+from tribodyn.core.files import read_regular
+from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms.catalogue import load_case
 
 FEW, PARTS, EACH = 15, 10, 500
@@ -263,3 +266,29 @@ def test_a_result_of_points_that_never_ends_is_refused(tmp_path: Path) -> None:
     os.mkfifo(place / "result.nc")
     (tmp_path / "sweep.nc").write_bytes(b"")
     assert main(["report", str(tmp_path), "--points"]) == 2
+
+
+def test_a_file_that_grows_while_it_is_read_is_not_read_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "file"
+    path.write_bytes(b"x" * 11)
+    small = os.stat_result((0o100644, 0, 0, 1, 0, 0, 5, 0, 0, 0))
+    monkeypatch.setattr(os, "stat", lambda *_, **__: small)
+    monkeypatch.setattr(os, "fstat", lambda _: small)
+    with pytest.raises(OSError, match="grows while it is read"):
+        read_regular(path, 10)
+
+
+def test_names_that_are_right_are_compared_with_no_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    # For each body of a chain all others were searched for similar names: 1,000 bodies took ten seconds.
+    looked: list[str] = []
+    monkeypatch.setattr(difflib, "get_close_matches", lambda word, *_, **__: looked.append(word) or [])
+    drawing = Mechanism("Chain", run={"duration": "1 s"})
+    for k in range(30):
+        body = f"link-{k}"
+        drawing.body(body, mass="1 kg", centre=f"{k}, 0, 0 m", inertia="0.1, 0.1, 0.1 kg m^2")
+        before = f"link-{k - 1}" if k else "ground"
+        drawing.revolute(f"pin-{k}", before, body, point=f"{k - 0.5}, 0, 0 m", axis=[0, 0, 1])
+    assert len(drawing.case().bodies) == 30
+    assert looked == []

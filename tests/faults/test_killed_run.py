@@ -1,6 +1,7 @@
 """Real runs that are killed, have no room left, meet each other, or whose results are damaged afterwards."""
 
 import json
+import os
 import random
 import resource
 import shutil
@@ -16,6 +17,7 @@ from tribodyn.cli.main import main
 from tribodyn.cli.options import OutputDirectory
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.mechanisms.results import read, summarise
+from tribodyn.results.store import remove_stale_parts
 
 RUN = [sys.executable, "-m", "tribodyn", "run", "vsv", "--force", "--set", "run.duration=1 s", "-o"]
 WHOLE = ["case.toml", "figures", "report.html", "result.nc", "summary.json"]
@@ -219,3 +221,12 @@ def test_a_report_waits_for_nobody(copy: Path, capsys: pytest.CaptureFixture[str
     with OutputDirectory(str(copy)).reserved():
         assert main(["report", str(copy)]) == 2
     assert "another tribodyn is writing results there" in capsys.readouterr().err
+
+
+def test_what_a_killed_process_left_is_removed_in_time(tmp_path: Path) -> None:
+    old, new = tmp_path / ".result.nc.1.part", tmp_path / ".result.nc.2.part"
+    old.touch()
+    new.touch()
+    os.utime(old, (time.time() - 7200.0,) * 2)
+    remove_stale_parts(tmp_path)
+    assert (old.exists(), new.exists()) == (False, True)

@@ -351,3 +351,43 @@ def test_a_smooth_switch_holds_however_narrow(rtol, rate, width):
     assert solution.success
     assert abs(solution.y[0, -1]) < 1e-6
     assert solution.nfev < 2000
+
+
+#: A Jacobian so large by mistake that its rounding of y would explain the residual.
+BELOW_ROUNDING = (820, 1130, 1856)
+
+
+#: A Jacobian differenced across a jump whose corrections are not tiny, only small beside the residual.
+MODERATE = (2110, 3638, 6713)
+
+
+NARROW = (6129, 6849)  #: A Jacobian that is right, on the flank of a switch narrower than the tolerance.
+
+
+#: A Jacobian so large by mistake that what is lost in the first steps shows only if the end is reached.
+TOO_LARGE = (3298, 3311, 6633, 9848)
+
+
+#: A Jacobian differenced across a jump that leads to a smaller residual on its other side, and no further.
+HALFWAY = (8555,)
+
+
+MIXED = (110, 131, 292, 373, 895, 934, 8070, 8356, 8485)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_no_success_where_the_error_hides_best():
+    assert_honest(BELOW_ROUNDING + MODERATE + NARROW + TOO_LARGE + HALFWAY + MIXED, 3000, 0.0)
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("_undoubted")
+def test_two_thousand_jacobians_that_are_too_large():
+    errors = {seed: largest_error(seed, 1500) for seed in range(2000)}
+    assert {seed: error for seed, error in errors.items() if not error <= 100.0} == {}
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_ten_thousand_switches_and_wrong_jacobians():
+    assert_honest(range(10_000), 3000, 0.45)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.papers.cheng_2022.runs import Runs
-from tribodyn.papers.cheng_2022.undamped import undamped
+from tribodyn.papers.cheng_2022.undamped import envelope, undamped
 
 
 @pytest.fixture(scope="module")
@@ -38,3 +38,12 @@ def test_consistent_equations_do_not(runs):
     # is not damped: in 1 of 26 runs a ripple of 1.7 N was left.
     assert np.median(least) > 19.0
     assert np.median(most) < 20.5
+
+
+def test_the_envelope_holds_the_largest_force():
+    time = np.linspace(0.1, 3.0, 4000)
+    force = np.where(np.arange(4000) % 7 == 3, 5.0, 1.0)
+    force[-200:] = np.nan
+    middle, largest = envelope(time, force)
+    assert np.all(largest == 5.0)
+    assert 0.09 < middle[0] < middle[-1] < time[-200] + 0.01

@@ -88,3 +88,11 @@ def test_global_error_falls_with_the_tolerance(solver):
     assert 0.65 < slope < 1.3
     # Local errors of some hundred steps add up; none of these solvers controls the global error.
     assert np.all(errors < 100.0 * TOLERANCES)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_stiff_component_does_not_spoil_the_others(solver, rtol):
+    # At single tolerances between these LSODA misses this bound by a factor of 10 to 100 when it
+    # switches to Adams late in a segment; SciPy's solve_ivp does the same.
+    assert error_at_end(solver, rtol, rate=1e4) < 100.0 * rtol

@@ -202,3 +202,23 @@ def test_all_faults_are_told_at_once() -> None:
     again = pickle.loads(pickle.dumps(caught.value))
     assert str(again) == str(caught.value)
     assert len(again.faults) == 4
+
+
+@pytest.mark.parametrize("name", built_in())
+def test_models_alone_give_the_same_defaults_as_loading(name: str) -> None:
+    entry = built_in()[name]
+    if not entry.given:
+        assert entry.model() == td.load_case(name)  # type: ignore[call-arg]
+
+
+def test_a_resolved_file_keeps_what_it_says() -> None:
+    written = CASE.to_toml().replace('formulation = "exact"', 'formulation = "paper"')
+    case: Any = parse_case(written, "case.toml")
+    assert (case.joint.friction, case.run.start) == ("traction", "equilibrium")
+
+
+def test_a_value_of_ones_own_is_never_called_assumed() -> None:
+    shown = CASE.replace({"joint.friction_coefficient": 0.2}).to_toml(comments=True)
+    (line,) = (line for line in shown.splitlines() if line.startswith("friction_coefficient"))
+    assert line.endswith("default 0.1, ASSUMED")
+    assert "friction_coefficient = 0.2" in line

@@ -125,3 +125,17 @@ def test_an_error_in_a_base_names_the_base(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         td.load_case(tmp_path / "mine.toml")
     assert caught.value.source == str(tmp_path / "base.toml")
+
+
+def test_names_are_data_only(tmp_path: Path) -> None:
+    path = tmp_path / "<b>лопатка {0} %s $(id).toml"
+    title = "<script>alert(1)</script> лопатка {0} %s 🌀"
+    path.write_text(f'case = "vsv"\ntitle = "{title}"\n', encoding="utf-8")
+    case = load_case(path)
+    assert case.title == title
+    assert parse_case(case.to_toml(), "again") == case
+
+
+def test_a_force_is_a_size_and_no_vector() -> None:
+    with pytest.raises(InputError, match=r"these are several numbers.*direction = \[-1, 0, 0\]"):
+        parse_case('case = "mechanism"\n[loads.push]\nforce = "-100, 0, 0 N"\n', "mine.toml")

@@ -7,7 +7,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.cases.dimensions import Dimensioned, ExpressionProblem, dimensions_of, fits
-from tribodyn.cases.expressions import evaluate
+from tribodyn.cases.expressions import FUNCTIONS, OF_ANY_NUMBER, evaluate
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.studies.plan import Sampling, make_plan
@@ -370,3 +370,44 @@ mass = "2 kg"
     assert strut.centre == (1.5, 2.0, 0.0)
     assert strut.first_axis == pytest.approx((0.6, 0.8, 0.0))
     assert strut.inertia == pytest.approx((4e-4, 2e-4 + 50.0 / 12.0, 2e-4 + 50.0 / 12.0))
+
+
+def test_an_arc_is_a_length_and_a_frequency_is_no_angular_one() -> None:
+    arc = evaluate("crank * turn / (1 s)", SCOPE).dimensions
+    assert fits(arc, dimensions_of("m/s"))
+    assert not fits(arc, dimensions_of("m"))
+    for text in ("1 Hz", "2 * 1 Hz"):
+        with pytest.raises(InputError, match=r"drive\.angular_frequency"):
+            td.load_case("vsv").replace({"drive.angular_frequency": text})
+    assert not fits(evaluate("1 rad/s", SCOPE).dimensions, dimensions_of("Hz"))
+
+
+def test_every_function_names_how_many_arguments_it_takes() -> None:
+    for name, (n, _) in FUNCTIONS.items():
+        given = n - 1 if name in OF_ANY_NUMBER else n + 1
+        with pytest.raises(ExpressionProblem, match=f"{name} takes {n} argument"):
+            evaluate(f"{name}({', '.join(['ratio'] * given)})", SCOPE)
+
+
+@pytest.mark.parametrize(
+    "text", ["f", "2 * f", "50 Hz", "3000 / (60 s)", "1 / (2 s)", "f / pi", "f * (1 + 0)", "max(f, v / c)"]
+)
+def test_turns_in_some_time_are_no_angular_speed(text: str) -> None:
+    found = evaluate(text, ANGULAR)
+    assert not fits(found.dimensions, dimensions_of("rad/s"), found.turns)
+
+
+@pytest.mark.parametrize(("text", "value"), [("max(1, 2, ratio)", 3.0), ("min(4, ratio, 5, 6)", 3.0)])
+def test_the_extreme_of_more_than_two(text: str, value: float) -> None:
+    assert evaluate(text, SCOPE).value == value
+
+
+def test_what_follows_from_a_wrong_parameter_is_not_reported_again() -> None:
+    with pytest.raises(InputError) as caught:
+        model(MODEL.replace('crank = "50 mm"', 'crank = "rod / 3"', 1))
+    assert len(caught.value.faults) == 1
+
+
+def test_a_number_that_is_not_finite_is_no_expression() -> None:
+    with pytest.raises(InputError, match="the number must be finite"):
+        model(MODEL.replace('mass = "1 kg"', 'mass = "nan kg"', 1))

@@ -197,3 +197,8 @@ def test_a_vector_is_a_list_or_one_text(given: str) -> None:
 )
 def test_what_is_no_vector_is_refused(given: str, words: str) -> None:
     assert words in refused(f"point = {given}")
+
+
+def test_a_key_that_must_be_given_says_so() -> None:
+    with pytest.raises(InputError, match=r"loads.gas.mass: this key is missing.*2 kg"):
+        parse('case = "toy"\n[loads.gas]\nbetween = ["a", "b"]\n', "toy.toml", {"toy": Toy})

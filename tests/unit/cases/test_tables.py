@@ -172,3 +172,15 @@ def test_a_value_in_the_place_of_a_table_is_refused() -> None:
     with pytest.raises(InputError, match="this is a table, not a value") as caught:
         parsed('case = "toy"\njoints.pin = 3')
     assert caught.value.key == "joints.pin"
+
+
+def test_the_order_of_names_is_no_difference() -> None:
+    blocks = ('[joints.a]\nclearance = "30 um"\n', "[joints.b]\n")
+    one, other = (parsed('case = "toy"\n' + "".join(order)) for order in (blocks, blocks[::-1]))
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one != parsed('case = "toy"\n[joints.a]\n[joints.b]')
+
+
+def test_empty_tables_outlive_a_change() -> None:
+    assert "main-1" in parsed().replace({"gravity": "0 m/s^2"}).joints

@@ -2,11 +2,13 @@ import contextlib
 import math
 import subprocess
 import sys
+from decimal import Decimal
 
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tribodyn.cases.known_units import SIZES, ZEROS, looked_up
 from tribodyn.cases.units import UnitProblem, dimension, from_si, rms_roughness, si_unit, to_si
 
 UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N", "kg m^2", "ms", "um/s")
@@ -137,3 +139,22 @@ def test_a_kinematic_viscosity_comes_with_its_density() -> None:
 def test_the_built_in_case_needs_no_pint() -> None:
     code = "import sys, tribodyn as td; td.load_case('vsv'); assert 'pint' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_micrometres_are_the_float_a_person_expects() -> None:
+    assert to_si("20 um", "m") == 20e-6 == 2e-05
+
+
+@pytest.mark.parametrize(("base", "unit"), [(base, unit) for base, sizes in SIZES.items() for unit in sizes])
+def test_what_is_known_by_heart_is_what_pint_says(base: str, unit: str) -> None:
+    size, zero, units = looked_up(unit)
+    assert (size, zero, units) == (Decimal(SIZES[base][unit]), Decimal(ZEROS.get(unit, "0")), base)
+
+
+def test_a_unit_that_no_key_has_yet_is_its_own() -> None:
+    # A new element may have keys in N m^2 or rad/s^2.
+    assert si_unit("N m^2") == dimension("N m^2") == "N m^2"
+    assert to_si("3 kN m^2", "N m^2") == pytest.approx(3000.0)
+    assert to_si("180 deg/s^2", "rad/s^2") == pytest.approx(math.pi)
+    with pytest.raises(UnitProblem, match="N m\\^2"):
+        to_si("3 N", "N m^2")

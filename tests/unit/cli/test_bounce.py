@@ -40,3 +40,13 @@ def test_a_mechanism_drops_its_own_shaft(capsys: pytest.CaptureFixture[str]) -> 
     for first, second in zip(rows["vsv"], rows["slider-crank"], strict=True):
         assert first["plate"] == pytest.approx(second["plate"], rel=1e-6)
         assert first["shaft"] == pytest.approx(second["shaft"], rel=0.02)
+
+
+def test_unknown_law_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bounce", "vsv", "--law", "hertz"]) == 2
+    assert "allowed: ke, rsdc" in capsys.readouterr().err
+
+
+def test_a_case_without_a_shaft_in_a_bore_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bounce", "slider-crank-3d"]) == 2
+    assert "no joint of this case is a shaft in a bore" in capsys.readouterr().err

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tribodyn.cli.console import Bar, Console, ProgressLines, progress
-from tribodyn.cli.interrupt import Interruption, last_words, on_leaving, signals_heard
+from tribodyn.cli.interrupt import Interruption, end, last_words, on_leaving, signals_heard
 
 NUMBERS = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 
@@ -120,3 +120,41 @@ def test_a_terminal_gets_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     assert " 50%|" in terminal.getvalue()
     assert "1.00 of 2.00 s simulated" in terminal.getvalue()
     assert "news" in terminal.getvalue()
+
+
+IN_A_CALLBACK = """
+import os, signal, sys, time, weakref
+from tribodyn.cli import interrupt
+
+class Thing: pass
+
+def gone(reference):
+    # What a handler raises here is printed and lost.
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(0.1)
+
+with interrupt.signals_heard():
+    thing = Thing()
+    reference = weakref.ref(thing, gone)
+    del thing
+    print("went on")
+"""
+
+
+@NUMBERS
+def test_where_nobody_has_asked_yet_there_is_nothing_to_save(number: signal.Signals, leaving: None) -> None:
+    with signals_heard(), Interruption() as stop:
+        assert status_of(number) == 1
+    assert not stop.requested
+
+
+def test_after_the_work_a_signal_changes_nothing(leaving: None, capfd: pytest.CaptureFixture[str]) -> None:
+    with signals_heard():
+        end(0)
+        assert status_of(signal.SIGINT) == 0
+    assert capfd.readouterr().err == ""
+
+
+def test_a_signal_in_a_callback_of_the_interpreter_is_not_lost() -> None:
+    done = subprocess.run([sys.executable, "-c", IN_A_CALLBACK], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", "\ntribodyn: aborted; nothing was saved\n")

@@ -281,3 +281,42 @@ def test_figures_and_report_can_be_left_out(in_empty_directory, simulation, caps
     assert main(["run", "vsv", "-o", "out", "--no-figures"]) == 0
     assert not Path("out/figures").exists()
     assert Path("out/report.html").exists()
+
+
+def test_results_are_replaced(in_empty_directory: Path, simulation: Callable[..., None]) -> None:
+    simulation()
+    assert main(["run", "vsv", "-o", "out"]) == 0
+    Path("out/notes.txt").write_text("mine", encoding="utf-8")
+    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um", "--force"]) == 0
+    assert 'clearance = "40 um"' in Path("out/case.toml").read_text(encoding="utf-8")
+    assert Path("out/notes.txt").read_text(encoding="utf-8") == "mine"
+
+
+def test_what_is_left_of_a_failed_run_is_overwritten(
+    in_empty_directory: Path, simulation: Callable[..., None]
+) -> None:
+    simulation(lambda stop: "it stopped")
+    assert main(["run", "vsv", "-o", "out"]) == 1
+    simulation()
+    assert main(["run", "vsv", "-o", "out", "--set", "joint.clearance=40 um"]) == 0
+
+
+@pytest.mark.parametrize("processors", [1, 2])
+def test_two_processes_share_the_figures_and_one_makes_up_for_the_other(
+    processors: int, in_empty_directory: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from tribodyn.cli import pictures
+
+    monkeypatch.setattr("tribodyn.core.platforms.processors", lambda: processors)
+    here = os.getpid()
+
+    def draw_all(dataset: xr.Dataset, directory: Path, part: slice) -> None:
+        if part.start == 1 and processors == 2 and os.getpid() != here:
+            raise MemoryError
+        for name in list("abcde")[part]:
+            (directory / name).touch()
+
+    monkeypatch.setattr(tribodyn.report, "draw_all", draw_all)
+    Path("figures").mkdir()
+    pictures.draw(xr.Dataset(), in_empty_directory, page=False)
+    assert sorted(path.name for path in Path("figures").iterdir()) == list("abcde")

@@ -204,3 +204,13 @@ def test_the_table_shows_what_varies_or_what_is_asked_for() -> None:
     heading = " ".join(list(sweep_in_words(record, ["steps", "contact_force_max_N"]))[:-2])
     assert heading.index("Steps") < heading.index("Contact")
     assert "Tilt" not in heading
+
+
+def test_set_and_solver_change_every_point(simulated: list[Any]) -> None:
+    assert main([*SWEEP, "--set", "run.duration=0.5 s", "--solver", "radau"]) == 0
+    assert {(case.run.duration, case.solver.name) for case in simulated} == {(0.5, "radau")}
+
+
+def test_a_number_that_nobody_knows_cannot_be_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*SWEEP, "-o", "out", "--show", "tilt_max_rad"]) == 2
+    assert ": tilt_max_mrad, " in capsys.readouterr().err

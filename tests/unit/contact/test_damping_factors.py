@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tribodyn.contact.damping_factors import DAMPING_FACTORS, calibrated, rebound
+from tribodyn.contact.damping_factors import DAMPING_FACTORS, DampingFactor, calibrated, rebound
 
 MEANT = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 0.99])
 
@@ -43,3 +43,9 @@ def test_the_smallest_restitutions_are_met_too() -> None:
     # Deep in contact the restitution of the paper's law falls towards zero; warnings are errors here.
     wanted = np.array([1e-2, 1e-3, 1e-6])
     np.testing.assert_allclose(rebound(calibrated(wanted)), wanted, rtol=1e-6)
+
+
+@pytest.mark.parametrize("factor", DAMPING_FACTORS.values(), ids=DAMPING_FACTORS.keys())
+def test_elastic_impact_has_no_damping(factor: DampingFactor) -> None:
+    assert factor(np.array([1.0]))[0] == 0.0
+    assert factor.realised(np.array([1.0]))[0] == 1.0

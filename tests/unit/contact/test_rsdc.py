@@ -4,6 +4,7 @@ from scipy.integrate import solve_ivp
 
 from mebdf.arrays import FloatArray
 from tribodyn.contact import DAMPING_FACTORS, RSDC, KogutEtsion, SurfacePair, tabulate
+from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.lookup import pressure_and_damping, stored_energy
 
@@ -60,3 +61,20 @@ def test_flat_impact_rebounds_with_about_the_restitution_meant(table_1_pair, dep
     deepest, rebound = flat_impact(tabulate(law), depth)
     # The law is not made to return e exactly; that it does to 0.013 is a finding that the manual states.
     assert rebound == pytest.approx(law.meant_restitution(np.array([deepest]))[0], abs=0.015)
+
+
+def test_restitution_lies_between_zero_and_one(table_1_pair: SurfacePair) -> None:
+    restitution = RSDC(table_1_pair).meant_restitution(H_STAR)
+    assert np.all((restitution > 0.0) & (restitution < 1.0))
+
+
+def test_damping_is_finite_and_falls_with_separation(table_1_pair: SurfacePair) -> None:
+    damping = RSDC(table_1_pair).damping_pressure(H_STAR)
+    assert np.all(damping > 0.0)
+    assert np.all(np.diff(damping) < 0.0)
+
+
+def test_unknown_factor_names_the_known_ones(table_1_pair: SurfacePair) -> None:
+    with pytest.raises(InputError, match="gonthier") as caught:
+        RSDC(table_1_pair, damping_factor="newton")
+    assert caught.value.key == "contact.damping_factor"

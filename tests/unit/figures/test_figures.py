@@ -128,3 +128,10 @@ def test_names_captions_and_needs_are_complete():
 def test_pyplot_is_never_imported():
     code = "import sys, tribodyn.figures; sys.exit('matplotlib.pyplot' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_global_state_is_left_alone(make_result):
+    before = dict(mpl.rcParams)
+    for family in FIGURES.values():
+        family.draw(make_result(0.1))
+    assert dict(mpl.rcParams) == before

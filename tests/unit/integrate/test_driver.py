@@ -283,3 +283,41 @@ def test_a_run_that_is_stuck_ends_within_two_looks(monkeypatch, marks):
 )
 def test_a_run_that_is_slow_goes_on(monkeypatch: pytest.MonkeyPatch, marks: list[tuple[float, int]]) -> None:
     looks(monkeypatch, marks)
+
+
+def test_rows_are_taken_with_the_memory_the_step_was_computed_with():
+    solution, _ = run((), [0.0, 0.4, 0.8, 1.0])
+    np.testing.assert_allclose(solution.rows, [[0.0, 0.0, 0], [0.4, 0.4, 0], [0.8, 0.8, 1], [1.0, 1.0, 2]])
+
+
+def test_a_picture_at_the_start_is_taken_after_enter():
+    solution, calls = run((), (), [0.0])
+    assert calls[:2] == [("enter", 0.0, 0.0), ("picture", 0.0)]
+    assert solution.pictures.shape == (1, 2, 2)
+
+
+def test_nothing_is_taken_when_nothing_is_asked_for():
+    solution, calls = run()
+    assert {call[0] for call in calls} == {"enter", "advance", "accept"}
+    assert solution.rows.shape == (0, 3)
+    assert solution.t_end == 1.0
+    np.testing.assert_allclose(solution.y_end, [1.0])
+
+
+def test_a_state_that_is_not_finite_is_not_accepted():
+    solution, calls = run(method=ExactSteps(bad_after=0.5))
+    assert solution.failure is not None
+    assert "the value of y became not finite" in solution.failure
+    assert solution.t_end == pytest.approx(0.4)
+    assert calls[-1] == ("accept", 0.4)
+
+
+def test_a_run_that_has_reached_its_end_is_complete_whatever_stop_says():
+    solution, _ = run(stop=lambda: True, end=0.4)
+    assert solution.complete
+
+
+def test_progress_is_told_the_time_of_every_step():
+    times = []
+    run((0.5,), progress=times.append)
+    np.testing.assert_allclose(times, [0.4, 0.5, 0.9, 1.0])

@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.core.problem import CompiledFunctions, Following, Problem
 from tribodyn.integrate import integrate
-from tribodyn.integrate.following import CHUNK, CHUNK_ROOM, ROOM, Followed
+from tribodyn.integrate.following import CHUNK, CHUNK_ROOM, ROOM, Followed, thinning
 
 WINDOWS = np.array([[0.0, 0.3], [1.0, 1.4]])
 
@@ -132,3 +132,14 @@ def test_long_rows_are_kept_within_their_room_with_their_peaks():
     assert times.size > 2
     assert rows.nbytes <= ROOM / 2
     assert (rows[:, 0].min(), rows[:, 0].max()) == (values.min(), values.max())
+
+
+def test_thinning_keeps_the_extremes_of_every_column():
+    values = np.random.default_rng(3).normal(size=(5000, 3))
+    kept = thinning(values, 70)
+    assert kept.size <= 70
+    assert np.all(np.diff(kept) > 0)
+    for column in range(3):
+        assert {values[:, column].argmin(), values[:, column].argmax()} <= set(kept.tolist())
+    again = thinning(values[kept], 30)
+    assert values[kept][again].max(axis=0).tolist() == values.max(axis=0).tolist()

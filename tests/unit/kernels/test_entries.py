@@ -6,6 +6,7 @@ import ast
 import importlib
 import json
 import os
+import random
 import re
 import struct
 import subprocess
@@ -15,6 +16,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 from llvmlite.binding.object_file import ObjectFileRef
 
@@ -22,6 +24,7 @@ import mebdf
 import tribodyn
 from mebdf.compiled.build import ALLOWED
 from mebdf.compiled.kernel import Kernel, entries
+from mebdf.compiled.layouts import Absent, Array, Layout, Number, One, Tuple
 from mebdf.compiled.library import LEVELS, MANIFEST, fingerprint
 from mebdf.kernels import jit as solver
 from tribodyn.kernels import jit
@@ -164,3 +167,49 @@ def test_kernels_and_laws_use_no_function_that_depends_on_the_processor() -> Non
     given = [path for path in (*KERNELS, *LAWS) if path.name != "constants.py"]
     found = {str(path): list(inexact(path.read_text())) for path in given}
     assert not {path: uses for path, uses in found.items() if uses}
+
+
+def fitting(layout: Layout) -> Any:
+    """Return a value that fits a layout."""
+    if isinstance(layout, Number):
+        return layout.kind(1)
+    if isinstance(layout, Array):
+        return np.ones((1,) * layout.ndim, layout.dtype)
+    if isinstance(layout, One):
+        return np.zeros(1, layout.dtype)[0]
+    if isinstance(layout, Tuple):
+        return layout.cls._make(map(fitting, layout.members))  # type: ignore[attr-defined]
+    return None
+
+
+def spoiled(layout: Layout, luck: random.Random) -> Any:
+    """Return a value that does not fit a layout, in one place of many."""
+    if isinstance(layout, Tuple):
+        place = luck.randrange(-1, len(layout.members))
+        if place < 0:
+            return tuple(map(fitting, layout.members))
+        members = [spoiled(m, luck) if k == place else fitting(m) for k, m in enumerate(layout.members)]
+        return layout.cls._make(members)  # type: ignore[attr-defined]
+    if isinstance(layout, Array):
+        fits = fitting(layout)
+        read_only = fits.copy()
+        read_only.flags.writeable = False
+        wide = np.ones((1,) * (layout.ndim - 1) + (4,), layout.dtype)[..., ::2]
+        return luck.choice([read_only, fits[None], wide, np.ones(fits.shape, np.float32), fits.tolist()])
+    if isinstance(layout, One):
+        more = np.dtype([("x", "f8"), *(layout.dtype.descr if layout.dtype.isbuiltin else [])])
+        return luck.choice([np.zeros(1, more)[0], np.zeros(1, layout.dtype), None])
+    if isinstance(layout, Absent):
+        return 1.0
+    return luck.choice(["1", [1.0], np.ones(1), {}, 1j] + ([0.5, True] if layout == Number(int) else []))
+
+
+def test_a_thousand_wrong_arguments_are_refused() -> None:
+    luck = random.Random(5)
+    for number in range(1000):
+        kernel = LISTED[number % len(LISTED)]
+        place = luck.randrange(len(kernel.layouts))
+        given = list(map(fitting, kernel.layouts))
+        given[place] = spoiled(kernel.layouts[place], luck)
+        with pytest.raises(TypeError):
+            kernel(*given)

@@ -1,9 +1,12 @@
 """Flow, shear, contact and friction factors of rough surfaces."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from tribodyn.core.errors import InputError
 from tribodyn.kernels.film.gap import cubic, mean_gap, place
 from tribodyn.lubrication import Roughness
 from tribodyn.lubrication.factors import (
@@ -93,3 +96,40 @@ def test_couette_factor_is_the_mean_of_the_inverse_gap(z: float) -> None:
     expected = quad(lambda x: z * density(x) / (z + x), low, 1.0, epsabs=1e-12, epsrel=1e-11, limit=200)[0]
     # Below z = 1 the published form drops what the cut at 1/300 adds beyond its logarithm: terms of 1/300.
     assert couette_factor(np.array(3.0 * z)) == pytest.approx(expected, rel=4e-3 if z < 1 else 1e-8)
+
+
+H = np.array([0.5, 0.75, 1.0, 2.0, 3.0, 4.9, 5.0, 6.0, 10.0, 40.0])
+
+
+@pytest.mark.parametrize("peklenik", PEKLENIK)
+def test_factors_end_at_smooth_surfaces(peklenik: float) -> None:
+    # The slowest tail is H^−1.5: 0.87e-6 at H = 1e4.
+    assert pressure_factor(np.array(1e4), peklenik) == pytest.approx(1.0, abs=1e-6)
+    assert shear_factor(np.array(1e4), peklenik) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_interpolation_meets_the_tables_and_stays_between() -> None:
+    for low, high in itertools.pairwise(PEKLENIK):
+        ends = np.sort([pressure_factor(H, low), pressure_factor(H, high)], axis=0)
+        between = pressure_factor(H, np.sqrt(low * high))
+        assert np.all((ends[0] <= between) & (between <= ends[1]))
+        np.testing.assert_allclose(pressure_factor(H, high * (1 - 1e-9)), pressure_factor(H, high), atol=1e-8)
+
+
+@pytest.mark.parametrize("peklenik", [0.1, 9.1, 0.0])
+def test_unknown_peklenik_number_is_refused(peklenik: float) -> None:
+    with pytest.raises(InputError, match="1/9 to 9"):
+        pressure_factor(H, peklenik)
+
+
+def test_isotropic_surfaces_conduct_alike_in_both_directions() -> None:
+    factors = flow_table(Roughness((1e-6, 2e-6))).factors
+    np.testing.assert_array_equal(factors[:, 0], factors[:, 1])
+
+
+def test_like_surfaces_have_no_shear_flow_and_exchange_reverses_it() -> None:
+    alike = flow_table(Roughness((1e-6, 1e-6), (3.0, 3.0))).factors[:, 2]
+    assert not alike.any()
+    one = flow_table(Roughness((1e-6, 2e-6), (3.0, 1 / 3))).factors[:, 2]
+    other = flow_table(Roughness((2e-6, 1e-6), (1 / 3, 3.0))).factors[:, 2]
+    np.testing.assert_allclose(one, -other, atol=1e-15)

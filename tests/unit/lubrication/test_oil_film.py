@@ -234,3 +234,12 @@ def test_a_film_thinner_than_its_grid_shows_is_refused_and_finer_cells_help() ->
         for theta in (192, 384)
     ]
     assert finer[0] == pytest.approx(finer[1], rel=0.04)
+
+
+def test_negative_roughness_is_refused() -> None:
+    with pytest.raises(InputError, match="rms"):
+        Roughness((1e-6, -1e-6))
+
+
+def test_nothing_moves_nothing_presses() -> None:
+    assert film_state(FILM, STATE * ([1] * 4 + [0] * 4)).force == (0.0, 0.0)

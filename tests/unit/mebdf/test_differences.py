@@ -10,7 +10,14 @@ from scipy.optimize._numdiff import group_columns
 from scipy.sparse import csc_array, csc_matrix, random_array
 
 from mebdf import MEBDF
-from mebdf.differences import LEAST, DenseDifferences, DifferencesOfTerms, GroupedDifferences
+from mebdf.differences import (
+    AT_ONCE,
+    LEAST,
+    DenseDifferences,
+    DifferencesOfTerms,
+    GroupedDifferences,
+    typical_sizes,
+)
 
 N = 90
 SMALL = 1e-9
@@ -201,3 +208,44 @@ def test_charges_that_touch_no_ground_need_no_jacobian_of_their_own(tolerance):
         # The current through the resistor of the first node and that of the supply are equal.
         through = 600.0 * np.sin(3.0) - 1250.0 * found.y[3, -1], 500.0 * (found.y[5, -1] - 5.0)
         assert through[0] == pytest.approx(through[1], abs=1e-3)
+
+
+def test_an_empty_column_costs_nothing():
+    of = csc_array(([2.0, 3.0], ([0, 2], [0, 2])), shape=(3, 3))
+    rates = Counted(of, 0.0)
+    y = np.array([1.0, 1.0, 0.0])
+    found = GroupedDifferences(of, np.full(3, SMALL))(rates, y, rates.at(y))
+    np.testing.assert_allclose(found.toarray(), np.diag([8.0, 0.0, 3.0]), rtol=1e-6)
+    assert rates.calls == 1
+
+
+def test_a_variable_that_swallows_its_move_is_moved_further():
+    of = csc_array(np.eye(2))
+    y = np.array([1e300, 0.0])
+    found = GroupedDifferences(of, np.array([SMALL, 1e-320]))(lambda states: of @ states, y, y)
+    np.testing.assert_allclose(found.diagonal(), 1.0, rtol=1e-6)
+
+
+def test_a_dense_row_takes_no_dense_states():
+    n = 3000
+    of = csc_array(np.vstack((np.ones(n), np.zeros((n - 1, n)))))
+    sizes = []
+
+    def rates(states):
+        sizes.append(states.size)
+        return of @ states
+
+    y = np.ones(n)
+    found = GroupedDifferences(of, np.full(n, SMALL))(rates, y, of @ y)
+    assert found.nnz == n
+    assert max(sizes) <= AT_ONCE + n
+    assert sum(sizes) == n * n
+
+
+@pytest.mark.parametrize("algebraic", [False, True])
+def test_no_move_of_a_variable_near_zero_exceeds_its_absolute_tolerance(algebraic):
+    rtol, atol = 10.0 ** np.linspace(-13.6, -1.0, 50), 10.0 ** np.linspace(-12.0, 3.0, 50)
+    move = LEAST * typical_sizes(rtol, atol, algebraic=algebraic)
+    assert np.all(move <= atol)
+    assert np.all(move >= LEAST * atol)
+    assert np.all(move >= 99.0 * np.finfo(np.float64).eps * atol / rtol)

@@ -220,3 +220,19 @@ def test_the_function_for_implicit_equations_takes_arguments_and_options():
     found = solve_dae(residual, (0.0, 2.0), [2.0], [0.0], args=(2.0,), jac=jac, t_eval=times, rtol=1e-7)
     expected = solve_ivp(explicit, (0.0, 2.0), [2.0], t_eval=times, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(found.y, expected.y, atol=1e-5)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize(
+    ("residual", "rate"),
+    [
+        (lambda t, y, z: z**3 + z - 2.0, 1.0),
+        (lambda t, y, z: z / 3.0 - 0.1, 0.3),
+        (lambda t, y, z: np.exp(z) - 3.0, np.log(3.0)),
+        (lambda t, y, z: 1e6 * (z / 3.0 - 0.1), 0.3),
+    ],
+)
+def test_an_equation_that_holds_no_value(residual, rate, rtol):
+    # What rounding leaves of it was more than no value allows: it was refused.
+    solution = solve(residual, (0.0, 1.0), [0.0], [0.0], rtol=rtol, atol=1e-3 * rtol)
+    assert solution.y[0, -1] == pytest.approx(rate, rel=rtol)

@@ -230,3 +230,31 @@ def test_an_algebraic_value_that_jumps_names_the_cure(options):
     )
     if "mass" in options:
         assert solve(fun, (0.0, 2.0), [1.0, 1.0], test_algebraic=False, **options).success
+
+
+def test_the_unit_matrix_changes_next_to_nothing():
+    runs = [solve(linear, (0.0, 2.0), [1.0, -1.0], rtol=1e-7, atol=1e-9, mass=m) for m in (None, [1.0, 1.0])]
+    np.testing.assert_allclose(runs[0].y[:, -1], runs[1].y[:, -1], atol=1e-6)
+
+
+def test_algebraic_variables_are_found_and_told():
+    problem = pendulum(1)
+    y0 = [1.0, 0.0, 0.0, 1.0, 0.0]
+    with pytest.warns(UserWarning, match=r"not consistent; changed component 4 from 0 to 1\."):
+        solver = MEBDF(problem.fun, 0.0, y0, 1.0, mass=problem.mass)
+    assert solver.y[4] == pytest.approx(1.0)
+
+
+def test_events_and_output_times_of_a_pendulum():
+    problem = pendulum(2)
+
+    def lowest(t, y):
+        return y[0] - 0.99
+
+    solution = solve(
+        problem.fun, (0.0, 1.0), problem.y0, mass=problem.mass, index=problem.index, rtol=1e-8, atol=1e-8,
+        events=lowest, t_eval=[0.0, 0.5, 1.0],
+    )  # fmt: skip
+    assert solution.y_events[0][0][0] == pytest.approx(0.99, abs=1e-6)
+    assert solution.t.tolist() == [0.0, 0.5, 1.0]
+    assert problem.digits(solution.y[:, -1]) > 6.0

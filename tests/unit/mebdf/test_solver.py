@@ -233,3 +233,41 @@ def test_a_start_too_small_for_a_relative_tolerance():
 def test_a_start_just_large_enough_for_a_relative_tolerance():
     solution = solve(lambda t, y: -y, (0.0, 1.0), [1e-290], rtol=1e-6, atol=0.0)
     assert solution.y[0, -1] == pytest.approx(np.exp(-1.0) * 1e-290, rel=1e-5)
+
+
+def falling(t, y):
+    return [y[1], -1.0]
+
+
+def ground(t, y):
+    return y[0]
+
+
+def test_events_backward_in_time():
+    solution = solve(falling, (2.0, 0.0), [-1.0, -2.0], events=ground, rtol=1e-8, atol=1e-10)
+    # y = 1 − t²/2 reaches 0 at √2
+    np.testing.assert_allclose(solution.t_events[0], [np.sqrt(2.0)], atol=1e-7)
+
+
+@pytest.mark.parametrize("span", [1e-4, 1.0, 1e6])
+def test_nothing_is_evaluated_beyond_the_end(span):
+    def fun(t, y):
+        assert 0.0 <= t <= span
+        return -y / span
+
+    solution = solve(fun, (0.0, span), [1.0], rtol=1e-7, atol=1e-10)
+    assert solution.y[0, -1] == pytest.approx(np.exp(-1.0), rel=1e-5)
+
+
+def test_step_by_step():
+    solver = MEBDF(swing, 0.0, [1.0, 0.0], 1.0)
+    steps = 0
+    while solver.status == "running":
+        assert solver.step() is None
+        assert solver.t_old < solver.t <= 1.0
+        assert solver.dense_output()(solver.t) == pytest.approx(solver.y)
+        steps += 1
+    assert solver.status == "finished"
+    assert steps > 3
+    with pytest.raises(RuntimeError):
+        solver.step()

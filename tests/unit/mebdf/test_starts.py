@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -361,3 +362,44 @@ def test_a_small_value_beside_a_large_one_is_corrected_among_eight_hundred():
     solution = solve(fun, (0.0, 3.0), start, mass=mass, jac_sparsity=csr_array(pairs), rtol=1e-6, atol=1e-9)
     assert solution.success
     np.testing.assert_allclose(solution.y[3, -1], np.exp(-3.0), rtol=1e-5)
+
+
+def test_output_times_get_consistent_values_at_the_start():
+    with pytest.warns(UserWarning, match="changed component 1"):
+        solution = solve(charging, (0.0, 0.5), [0.0, 0.0], t_eval=[0.0, 0.5], **CIRCUIT)
+    assert solution.y[1] == pytest.approx([1.0, np.exp(-0.5)])
+
+
+def test_values_of_the_solver_at_the_start_are_consistent():
+    with pytest.warns(UserWarning, match="changed component 1"):
+        y0 = MEBDF(charging, 0.0, [0.0, 0.0], 2.0, **CIRCUIT).y
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        solution = solve(charging, (0.0, 0.5), y0, mass=[1.0, 0.0])
+    assert solution.y[1, 0] == pytest.approx(1.0)
+
+
+def test_the_implicit_form_reports_an_index_that_is_too_low():
+    problem = pendulum(3)
+    with pytest.raises(ValueError, match="the index is above 1; give `index`"):
+        MEBDF(
+            lambda t, y, slope: problem.mass @ slope - problem.fun(t, y),
+            0.0,
+            problem.y0,
+            1.0,
+            slope=np.zeros(5),
+        )
+
+
+@pytest.mark.filterwarnings("ignore:The values at t")
+def test_a_current_of_nanoamperes_beside_a_kilovolt_is_corrected():
+    solution = solve(
+        lambda t, y: [-y[0], y[1] - 1000.0, y[2] - 1e-9 * y[0]],
+        (0.0, 3.0),
+        [1.0, 1000.0, 1.1e-9],
+        mass=[1.0, 0.0, 0.0],
+        rtol=1e-6,
+        atol=[1e-9, 1e-6, 1e-18],
+    )
+    assert solution.success
+    np.testing.assert_allclose(solution.y[2, -1], 1e-9 * np.exp(-3.0), rtol=1e-5)

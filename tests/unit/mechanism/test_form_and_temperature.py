@@ -120,3 +120,9 @@ def test_what_cannot_be_is_refused_by_its_key(case, joint, changes, words):
     with pytest.raises(InputError, match=words) as caught:
         places([clearance_of(free(changes, case, joint), joint)])
     assert f"joints.{joint}." in str(caught.value) or "grid" in str(caught.value)
+
+
+def test_an_expansion_that_is_not_known_is_asked_for() -> None:
+    case = td.load_case("vsv-free").replace({"joints.trunnion.clearance.temperature.bushing": "90 degC"})
+    with pytest.raises(InputError, match=r"surfaces\.bushing\.thermal_expansion: needed"):
+        clearance_of(case)

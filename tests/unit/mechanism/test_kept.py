@@ -146,3 +146,8 @@ def test_a_figure_of_many_surfaces_shows_those_with_the_largest_values(many: xr.
     assert {f"{name}:barrel" for name in NAMES[4:]} <= set(captions)
     assert not any("face" in text for text in captions)
     assert "8 surfaces of 24 with the largest values" in "".join(text.get_text() for text in figure.texts)
+
+
+def test_an_unknown_quantity_is_refused():
+    with pytest.raises(InputError, match=r"results\.quantities"):
+        brief(**{"results.quantities": ["reaction"]})

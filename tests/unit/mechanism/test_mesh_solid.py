@@ -113,3 +113,8 @@ def test_a_scale_is_that_of_a_mesh(tmp_path: Path) -> None:
         td.Mechanism("Lever").body(
             "lever", mass="1 kg", centre="0, 0, 0 mm", inertia="1, 1, 1 kg m^2", scale=2.0
         ).case()
+
+
+def test_a_unit_of_a_file_is_one_of_it(tmp_path: Path) -> None:
+    plain = case(tmp_path, mesh_unit="1 cm").case().bodies["lever"]
+    assert case(tmp_path, mesh_unit="cm").case().bodies["lever"] == plain

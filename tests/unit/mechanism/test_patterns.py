@@ -227,3 +227,9 @@ def test_velocities_are_resolved_by_what_drives_give(drive: str, power: float) -
     plain = tolerances(1.0, 20.0)
     np.testing.assert_allclose(tolerances(1.0, 40.0), plain, rtol=0.01)
     np.testing.assert_allclose(tolerances(4.0, 20.0), 4.0**power * plain, rtol=0.01)
+
+
+def test_a_written_case_with_elastic_copies_reads_back() -> None:
+    """Copies are written as their nodes; figures and reports of a result read the case again."""
+    ring = parse_case(TEMPLATES["vsv-ring"].text, "test")
+    assert parse_case(ring.to_toml(), "test") == ring

@@ -219,3 +219,14 @@ def test_no_step_leaps_over_the_wave_of_a_load() -> None:
     rate = td.simulate(arm.case())["relative_rate"].values[:, 0, 2]
     # M/(J ω) (1 − cos ω t)
     assert rate.max() == pytest.approx(2.0 / (1e-3 * 628.3185307179586), rel=1e-3)
+
+
+def test_energy_is_accounted_for(turn: xr.Dataset) -> None:
+    # Of the largest term; ten times the tolerance of the run.
+    assert abs(turn.attrs["energy_residual"]) < 1e-3
+
+
+def test_a_clearance_may_be_kept_for_later() -> None:
+    result = td.simulate(bob(ideal=True).case())
+    assert "surface" not in result.dims
+    assert float(abs(result["displacement"]).max()) < 1e-12

@@ -107,3 +107,25 @@ def test_runs_without_reversals_that_last_differently_are_named_so():
     case = load_case("slider-crank")
     found = differences([simulate(case.replace({"run.cycles": cycles})) for cycles in (1, 2)])
     assert found.stretch.endswith("these last differently: 0.012 s, 0.024 s.")
+
+
+#: Numbers of a mechanism, and how those of its joints begin.
+PARTS = {
+    "joint_force_max_N": "force_max_N_",
+    "joint_force_sustained_N": "force_sustained_N_",
+    "peak_pressure_MPa": "peak_pressure_MPa_",
+    "offset_max_um": "offset_max_um_",
+    "wear_depth_max_nm": "wear_depth_nm_",
+    "friction_heat_J": "friction_heat_J_",
+}
+
+
+@pytest.mark.parametrize(("first", "second"), [(0, 1), (1, 2)])
+def test_a_whole_is_never_smaller_than_its_part(driven, first, second):
+    found = differences([driven[first], driven[second]])
+    assert "Numbers of the motion are of" in found.stretch
+    for summary in found.summaries:
+        for whole, part in PARTS.items():
+            parts = [value for name, value in summary.items() if name.startswith(part)]
+            assert parts
+            assert max(parts) <= summary[whole] * (1.0 + 1e-12), (whole, parts)

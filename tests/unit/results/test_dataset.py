@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.mechanisms.catalogue import MECHANISMS
-from tribodyn.results import VARIABLES
+from tribodyn.results import VARIABLES, build
 from tribodyn.results.schema import check
 from tribodyn.results.summary import EFFORT
 from tribodyn.results.variables import OUTPUTS, OUTPUTS_OF_CYCLE
@@ -60,3 +60,8 @@ def test_pictures_of_a_motion_without_times_are_refused(pictures, make_result):
             KINDS,
         )
     check(whole.isel(time=slice(0, 0), snapshot=slice(0, 0), frame=slice(0, 0)), KINDS)
+
+
+def test_a_wrong_number_of_dimensions_is_refused():
+    with pytest.raises(ValueError, match="e_x has shape"):
+        build(coordinates={"time": [0.0]}, columns={"e_x": [[1.0]]})

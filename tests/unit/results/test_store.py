@@ -8,8 +8,8 @@ import xarray as xr
 
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.results import read, summarise, write_run
-from tribodyn.results import build, store
-from tribodyn.results.store import replacing, summary_text, write_text
+from tribodyn.results import build, prepare_directory, store
+from tribodyn.results.store import replacing, stage, summary_text, write_text
 
 
 def test_a_run_reads_back_identical(make_result, tmp_path):
@@ -154,3 +154,39 @@ def test_reading_a_torn_file_is_an_input_error(make_result, tmp_path):
     path.write_bytes(path.read_bytes()[:2000])
     with pytest.raises(InputError, match="cannot read the result"):
         read(tmp_path)
+
+
+def test_a_long_case_text_is_stored(tmp_path):
+    # HDF5 holds attributes of up to 64 kB in the usual way; a case with its comments may be longer.
+    result = build(
+        coordinates={"time": [0.0]}, columns={}, attributes={"kind": "vsv", "case": "# é\n" * 50_000}
+    )
+    write_run(result, tmp_path)
+    assert read(tmp_path).attrs == result.attrs
+
+
+def test_only_finished_files_remain(make_result, tmp_path):
+    write_run(make_result(0.1), tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.toml", "result.nc", "summary.json"]
+
+
+def test_prepare_directory_makes_it_and_leaves_nothing(tmp_path):
+    folder = prepare_directory(tmp_path / "a" / "b")
+    assert folder.is_dir()
+    assert list(folder.iterdir()) == []
+
+
+def test_prepare_directory_refuses_a_file(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="choose another folder"):
+        prepare_directory(tmp_path / "file")
+
+
+def test_what_cannot_be_staged_leaves_nothing(tmp_path, monkeypatch):
+    def fail(_):
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(OSError, match="no space left"):
+        stage(tmp_path / "result.nc", b"content")
+    assert list(tmp_path.iterdir()) == []

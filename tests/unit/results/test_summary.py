@@ -87,3 +87,7 @@ def test_a_peak_is_told_with_the_reversals_it_was_looked_for_after(make_result):
     assert (
         KEY_RESULTS["contact_force_outside_N"].label_in(one) == KEY_RESULTS["contact_force_outside_N"].label
     )
+
+
+def test_no_wear_rate_before_a_cycle_is_complete(make_result):
+    assert "wear_depth_rate_nm_per_1000_cycles" not in summarise(make_result(3.0))

@@ -216,3 +216,44 @@ def test_worn_profiles_are_kept_few_and_the_last_always():
     assert worn.stage_cycles[-1] == worn.cycles
     assert (np.diff(worn.stage_cycles) > 0.0).all()
     np.testing.assert_array_equal(worn.stage_depth[-1], worn.depth)
+
+
+def test_volume_of_each_jump_is_the_rate_times_the_sliding_load():
+    asked, punch = plan(), Punch()
+    worn, *_ = campaign(asked, punch=punch)
+    jumps = worn.history["wear_jump_cycles"]
+    assert jumps[-1] == 0.0
+    assert jumps.sum() == worn.cycles == 10_000
+    loads = [float((asked.node_area * found.sliding_load).sum()) for _, _, found in punch.cycles[1:-1]]
+    worn_off = RATE * jumps[:-1] * np.array(loads)
+    # To rounding; asked for are 1e-10.
+    np.testing.assert_allclose(np.diff(worn.history["wear_volume"]), worn_off, rtol=1e-11)
+    assert worn.history["wear_volume"][0] == 0.0
+
+
+def test_without_feedback_the_gap_stays_as_it_was():
+    punch = Punch()
+    worn, *_ = campaign(plan(feedback=False), punch=punch)
+    assert len(punch.cycles) == 3
+    assert all(not wear.any() for wear, _, _ in punch.cycles)
+    assert list(worn.history["wear_cycles"]) == [0.0, 10_000.0]
+
+
+def test_a_campaign_that_does_not_reach_the_limit_says_nothing_of_life():
+    worn, *_ = campaign(plan(100, depth_limit=1e-3))
+    assert worn.life == math.inf
+
+
+def test_no_wear_rate_no_wear():
+    worn, *_ = campaign(plan(10**6, rate=0.0, depth_limit=1e-6))
+    assert worn.cycles == 10**6
+    assert not worn.depth.any()
+
+
+def test_energy_taken_away_and_cost_are_written_down():
+    worn, *_ = campaign(plan())
+    energy = worn.history["wear_energy_lost"]
+    assert (energy[:-1] > 0.0).all()
+    assert energy.sum() == pytest.approx(24.0 - np.exp(-worn.depth / LENGTH).sum(), rel=1e-12)
+    # The settling cycle, and one a stop.
+    assert worn.statistics["steps"] == 10 * (1 + worn.history["wear_cycles"].size)

@@ -206,3 +206,17 @@ def test_optimum_of_machines_is_that_of_a_full_enumeration(model: str, tmp_path:
     chance = found.chosen.probability
     share, error = found.confirmed.within / 60, np.sqrt(chance * (1.0 - chance) / 60)
     assert abs(share - chance) <= 2.0 * error
+
+
+def test_a_number_that_jumps_is_refused(linear: Callable[..., None], tmp_path: Path) -> None:
+    linear(lambda a, b, c: np.sin(1e6 * (a + b + c)))
+    with pytest.raises(TribodynError, match="follows no quadratic of the keys"):
+        allocate(CASE, [f"{NUMBER}=1"], 0.9, costs(tmp_path))
+
+
+def test_probability_one_and_files_that_are_none(tmp_path: Path) -> None:
+    asked = ["allocate", CASE, "--limit", f"{NUMBER}=20", "-o", str(tmp_path / "out"), "--cost"]
+    assert main([*asked, costs(tmp_path), "--probability", "1"]) == 2
+    assert main([*asked, str(tmp_path), "--probability", "0.9"]) == 2
+    (tmp_path / "bad.toml").write_text("a = = 3")
+    assert main([*asked, str(tmp_path / "bad.toml"), "--probability", "0.9"]) == 2

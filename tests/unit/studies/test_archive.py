@@ -51,3 +51,28 @@ def test_a_line_that_is_not_whole_is_left_out_and_gone_with_the_next(torn, point
     assert Archive(tmp_path, whole=False).find(point) == {**SUMMARY, "number": 1.0}
     assert kept(tmp_path, point, 2.0).find(point) == {**SUMMARY, "number": 2.0}
     assert (tmp_path / "points.jsonl").read_text(encoding="utf-8").count("\n") == 2
+
+
+def test_a_staged_result_takes_its_place(point: Point, tmp_path: Path) -> None:
+    archive = Archive(tmp_path, whole=True)
+    with archive.open():
+        part = stage(archive.staging, b"result")
+        archive.keep(point, PointOutcome(dict(SUMMARY), staged=str(part)))
+    kept = archive.folder / point.name
+    assert (kept / "result.nc").read_bytes() == b"result"
+    assert sorted(path.name for path in kept.iterdir()) == ["case.toml", "result.nc", "summary.json"]
+    assert list(archive.folder.iterdir()) == [kept]
+
+
+def test_a_sweep_that_kept_nothing_leaves_no_folder(tmp_path: Path) -> None:
+    with Archive(tmp_path, whole=True).open():
+        pass
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_link_in_the_place_of_the_lines_is_replaced(point: Point, tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text("precious", encoding="utf-8")
+    (tmp_path / "points.jsonl").symlink_to(victim)
+    kept(tmp_path, point, 1.0)
+    assert victim.read_text(encoding="utf-8") == "precious"

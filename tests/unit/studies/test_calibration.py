@@ -388,3 +388,33 @@ def test_without_the_sampler_the_option_says_what_to_install(monkeypatch: pytest
     monkeypatch.setitem(sys.modules, "emcee", None)
     with pytest.raises(InputError, match=r"install tribodyn\[posterior\]"):
         posterior.sampler_package()
+
+
+def test_determined_keys_are_said_to_be_so(tmp_path: Path) -> None:
+    fit = _fit(_read(_file(tmp_path, "swing")))
+    assert statements(fit, fit.fitted(2)) == ["The data determine every key."]
+
+
+def test_rounding_is_no_measurement_that_would_help(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def with_rounding(case: td.studies.sweep.__class__) -> xr.Dataset:
+        run = _model(case)[["product"]]
+        time = run["time"].values
+        across = np.random.default_rng(int(1e12 * case.joint.clearance)).normal(0.0, 2e-34, time.size)
+        both = np.stack([run["product"].values, across], axis=1)
+        run["displacement"] = (("time", "axis"), both, {"units": "m"})
+        return run.assign_coords(axis=["x", "z"])
+
+    monkeypatch.setattr(calibration, "simulate", with_rounding)
+    fit = _fit(_read(_file(tmp_path, "product")))
+    words = " ".join(statements(fit, fit.fitted(2)))
+    assert "trade off" in words
+    assert "displacement" not in words
+
+
+def test_evaluations_that_are_no_text_are_refused(tmp_path: Path) -> None:
+    data = _read(_file(tmp_path, "swing"))
+    _fit(data, tmp_path).computed([0.5, 0.5])
+    with (tmp_path / EVALUATIONS).open("ab") as file:
+        file.write(b"\xff\xfe\n")
+    with pytest.raises(InputError, match="line 3"):
+        _fit(data, tmp_path)

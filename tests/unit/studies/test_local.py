@@ -12,6 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 
 from tribodyn.core import fork_server
@@ -136,3 +137,18 @@ def test_a_worker_has_the_equations_from_its_birth(given: dict[str, object], tmp
     asked = [sys.executable, str(script), json.dumps(given)]
     done = subprocess.run(asked, capture_output=True, text=True, check=True)
     assert json.loads(done.stdout) == {"threads": "1", "loaded": True, "left": False}
+
+
+def test_a_worker_that_died_between_tasks_is_replaced(workers: list[SweepWorker]) -> None:
+    victim = workers[0].process
+    victim.kill()
+    victim.join()
+    (answer,) = answers(workers[:1], [Task(os.getpid, ())], never)
+    assert answer[1] == workers[0].process.pid
+
+
+def test_workers_are_gone_with_the_block() -> None:
+    with started(2) as made:
+        pids = [worker.process.pid for worker in made]
+        assert all(psutil.pid_exists(pid) for pid in pids)
+    assert not any(psutil.pid_exists(pid) for pid in pids)

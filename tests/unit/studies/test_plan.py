@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+import tribodyn.studies.plan
 from tribodyn.cases import keys_of
+from tribodyn.contact import LAWS
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -203,3 +205,20 @@ def test_what_cannot_be_is_refused_and_names_the_key(path: str, asked: object, s
     with pytest.raises(InputError, match=said) as caught:
         variation(KEYS[path], asked)
     assert caught.value.key == path
+
+
+def test_another_version_has_other_names(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = make_plan(VSV, {"joint.clearance": "20 um"}).points[0].name
+    monkeypatch.setattr(tribodyn.studies.plan, "version", lambda name: "99")
+    assert make_plan(VSV, {"joint.clearance": "20 um"}).points[0].name != before
+
+
+def test_everything_else_of_the_case_counts_too() -> None:
+    other = VSV.replace({"solver.rtol": 1e-5})
+    vary = {"joint.clearance": "20 um"}
+    assert make_plan(VSV, vary).points[0].name != make_plan(other, vary).points[0].name
+
+
+def test_every_contact_law_can_be_swept_in_both_formulations() -> None:
+    vary = {"contact.law": ",".join(LAWS), "mechanism.formulation": "exact,paper"}
+    assert len({point.name for point in make_plan(VSV, vary).points}) == 2 * len(LAWS)

@@ -1,5 +1,6 @@
 """The search for a limit, around a simulation whose force is proportional to the clearance."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -132,3 +133,41 @@ def test_a_sweep_for_sensitivities(simulated, tmp_path, monkeypatch, capsys):
     assert float(clearance.split()[1]) > 0.1
     assert main([*command, "--samples", "6"]) == 2
     assert "power of two" in capsys.readouterr().err
+
+
+def test_a_second_search_goes_on_with_what_is_there(simulated: list[Any], tmp_path: Path) -> None:
+    asked = ("vsv", "joint.clearance", "10..29 um", "contact_force_max_N=2250")
+    first = td.studies.find(*asked, directory=tmp_path)
+    count = len(simulated)
+    assert td.studies.find(*asked, directory=tmp_path) == first
+    assert len(simulated) == count
+    td.studies.find(*asked, directory=tmp_path, within=0.001)
+    assert len(simulated) > count
+
+
+def test_a_key_result_that_no_run_gives_is_named(
+    simulated: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(TribodynError, match="no run has error_max_um_vane"):
+        td.studies.find("vsv", "joint.clearance", "10..29 um", "error_max_um_vane=1000")
+    sweep = ["sweep", "vsv", "--vary", "joint.clearance=10,20 um", "--summary-only", "--workers", "0"]
+    for option in ("--limit=error_max_um_vane=1000", "--show=error_max_um_vane"):
+        assert main([*sweep, option, "-o", str(tmp_path / option[2:6])]) == 1
+        assert "no run has error_max_um_vane" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("path", "between", "until", "hint"),
+    [
+        ("joint.clearence", "10..60 um", "tilt_max_mrad=1", "joint.clearance"),
+        ("joint.clearance", "10:60 um", "tilt_max_mrad=1", "10..60 um"),
+        ("joint.clearance", "60..10 um", "tilt_max_mrad=1", "upwards"),
+        ("joint.clearance", "10..60 kg", "tilt_max_mrad=1", "length"),
+        ("contact.law", "ke..rsdc", "tilt_max_mrad=1", "a range"),
+        ("joint.clearance", "10..60 um", "tilt_max_mrad", "NAME=NUMBER"),
+        ("joint.clearance", "10..60 um", "tilt_max_rad=1", "nearest of .*: tilt_max_mrad"),
+    ],
+)
+def test_wrong_questions_are_refused(path: str, between: str, until: str, hint: str) -> None:
+    with pytest.raises(InputError, match=hint):
+        td.studies.find("vsv", path, between, until)

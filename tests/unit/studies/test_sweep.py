@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.mechanisms.results import read
-from tribodyn.studies import Means, make_plan, run, sweep
+from tribodyn.studies import Arrival, Means, make_plan, run, sweep
 
 GRID = {"joint.friction_coefficient": "0.1,0.2", "joint.clearance": "20,25 um"}
 FAILING = {"joint.clearance": "20,30,35,40 um"}
@@ -132,3 +133,26 @@ def test_statistics_of_samples_leave_failures_out(simulated: list[Any], tmp_path
     assert good["numbers"]["contact_force_max_N"]["mean"] == pytest.approx(force.mean())
     assert good["numbers"]["contact_force_max_N"]["p95"] == pytest.approx(np.percentile(force, 95.0))
     assert bad["numbers"] == {}
+
+
+def test_equal_points_are_computed_once(simulated: list[Any]) -> None:
+    vary = {"joint.clearance": "20,25 um", "title": ["one"]}
+    assert sweep("vsv", vary, workers=0).sizes["title"] == 1
+    assert len(simulated) == 2
+
+
+def test_progress_is_told_of_every_arrival(simulated: list[Any]) -> None:
+    told: list[Arrival] = []
+    sweep("vsv", FAILING, workers=0, progress=told.append)
+    assert [(arrival.done, arrival.to_do) for arrival in told] == [(n, 4) for n in range(5)]
+    assert told[0].point is None
+    assert "no equilibrium" in told[3].failure
+
+
+def test_bad_means_are_refused(simulated: list[Any], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="0 or more"):
+        sweep("vsv", GRID, workers=-1)
+    (tmp_path / "points").write_text("in the way", encoding="utf-8")
+    with pytest.raises(InputError, match="is a file"):
+        sweep("vsv", GRID, workers=0, directory=tmp_path)
+    assert simulated == []

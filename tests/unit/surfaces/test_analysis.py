@@ -16,7 +16,7 @@ from tribodyn.surfaces import (
     generate,
 )
 from tribodyn.surfaces.analysis import in_bands, spectra
-from tribodyn.surfaces.parameters import numbers
+from tribodyn.surfaces.parameters import PARAMETERS, document, numbers
 
 TREATMENT = Treatment(short_cutoff=6e-6, long_cutoff=60e-6)
 
@@ -146,3 +146,35 @@ def test_the_integral_of_a_spectrum_is_the_variance(shape, rough):
 def test_a_spectrum_that_is_none_is_refused(wrong: tuple[float, ...]) -> None:
     with pytest.raises(InputError):
         SelfAffine(*wrong)
+
+
+def test_heights_and_lengths_scale(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
+    scan = rough()
+    double = analyse(replace(scan, heights=2.0 * scan.heights), TREATMENT)
+    assert double.sigma == pytest.approx(2.0 * surface.sigma, rel=1e-12)
+    assert double.asperities.density == pytest.approx(surface.asperities.density, rel=1e-9)
+    assert double.asperities.radius == pytest.approx(0.5 * surface.asperities.radius, rel=1e-9)
+
+
+def test_borders_without_heights_are_cut_off(surface: MeasuredSurface, rough: Callable[..., Scan]) -> None:
+    heights = np.full((110, 140), np.nan)
+    heights[5:101, 7:135] = rough().heights
+    assert numbers(analyse(rough().with_heights(heights), TREATMENT)) == numbers(surface)
+
+
+def test_every_number_has_a_label_and_a_finite_value(
+    surface: MeasuredSurface, rough: Callable[..., Scan]
+) -> None:
+    profile = numbers(analyse(rough(400)))
+    for found, is_map in ((numbers(surface), True), (profile, False)):
+        assert set(found) == {name for name, p in PARAMETERS.items() if p.of_maps in (None, is_map)}
+    stored = document(surface, [surface])
+    assert stored["short_cutoff_um"] == pytest.approx(6.0)
+    assert stored["cutoffs"][0]["sigma_um"] == stored["sigma_um"]
+    for name, value in numbers(surface).items():
+        assert np.isfinite(value), name
+
+
+def test_surfaces_of_one_seed_are_the_same(rough: Callable[..., Scan]) -> None:
+    np.testing.assert_array_equal(rough().heights, rough().heights)
+    assert not np.array_equal(rough().heights, rough(seed=2).heights)

@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.surfaces import FILTERS, LEVELS, Scan, analyse
 from tribodyn.surfaces.parameters import arithmetic_mean, mean_total_height, numbers
-from tribodyn.surfaces.treatment import filtered, levelled
+from tribodyn.surfaces.treatment import filled, filtered, levelled
 
 
 @pytest.mark.parametrize(("level", "degree"), LEVELS.items())
@@ -80,3 +80,22 @@ def test_profiles_and_maps_have_names_of_their_own(rough: Callable[..., Scan]) -
     # Of Gaussian heights σ = √(π/2) Ra; a few hundred points scatter by some per cent.
     assert profile["Rq_um"] / profile["Ra_um"] == pytest.approx(math.sqrt(math.pi / 2.0), rel=0.1)
     assert profile["Ra_um"] < profile["Rz_um"]
+
+
+@pytest.mark.parametrize("name", FILTERS)
+def test_filters_keep_constants_and_holes(name: str) -> None:
+    heights = np.full((50, 60), 3.0)
+    heights[10:13, 20:25] = np.nan
+    smooth = FILTERS[name](Scan(heights, (1.0, 2.0)), 10.0)
+    np.testing.assert_allclose(smooth[~np.isnan(heights)], 3.0, rtol=1e-12)
+    np.testing.assert_array_equal(np.isnan(smooth), np.isnan(heights))
+
+
+def test_holes_are_filled_from_around() -> None:
+    heights = np.full((40, 40), 2.0)
+    heights[:, 20:] = 4.0
+    heights[5:8, 5:8] = np.nan
+    heights[20:35, 25:40] = np.nan
+    whole = filled(heights)
+    np.testing.assert_allclose(whole[5:8, 5:8], 2.0, rtol=1e-12)
+    assert np.all((whole >= 2.0 - 1e-12) & (whole <= 4.0 + 1e-12))

@@ -136,3 +136,20 @@ def test_profiles_as_instruments_write_them(text: str, unit: str | None, tmp_pat
 def test_two_columns_without_units_are_asked_for_them(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="mm, um"):
         read(tmp_path, "\n".join(PROFILE))
+
+
+def test_columns_in_the_other_order(tmp_path: Path) -> None:
+    scan = read(tmp_path, "h [um],x [um]\n5,0\n6,1\n")
+    np.testing.assert_allclose(scan.heights, [5e-6, 6e-6], rtol=1e-15)
+
+
+def test_points_left_out_of_a_profile_are_missing(tmp_path: Path) -> None:
+    scan = read(tmp_path, "# unit: um\nx,h\n0,1\n1,2\n4,3\n5,4\n6,5\n")
+    np.testing.assert_array_equal(np.isnan(scan.heights), [False, False, True, True, False, False, False])
+    assert scan.spacing[0] == pytest.approx(1e-6, rel=1e-15)
+
+
+def test_rounded_positions_are_equal_steps(tmp_path: Path) -> None:
+    x = np.round(np.arange(100) * 0.35, 2)
+    rows = "\n".join(f"{place},{k}" for k, place in enumerate(x))
+    assert read(tmp_path, f"x [um],h [um]\n{rows}\n").spacing[0] == pytest.approx(0.35e-6, rel=1e-3)

@@ -162,3 +162,8 @@ def test_without_reversal_the_close_up_shows_the_largest_force(make_result):
     result = make_result(1.0)
     result["F_cx"].values[100] = 1e3
     assert close_up(result, CONTACT_FORCE)[0] == pytest.approx(0.5)
+
+
+def test_a_header_holds_no_nan():
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        inside_page({"x": float("nan")})

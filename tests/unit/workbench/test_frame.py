@@ -11,7 +11,7 @@ from tribodyn.views.encode import packed
 from tribodyn.workbench import messages, work
 from tribodyn.workbench.description import description
 from tribodyn.workbench.series import AROUND, slopes
-from tribodyn.workbench.server_state import Costs, KeptRuns
+from tribodyn.workbench.server_state import MOST_CASES, Costs, KeptRuns
 from tribodyn.workbench.variant import Origin
 
 
@@ -93,3 +93,11 @@ def test_of_cases_whose_copies_scatter_a_page_can_save_histograms_of_builds(monk
     assert drawn.count(b'id="axes_') == len(NUMBERS)
     with pytest.raises(TribodynError, match="not computed"):
         work.distribution(origin.case, {}, lambda reached: None, lambda: True)
+
+
+def test_texts_of_cases_are_forgotten_in_time():
+    runs = KeptRuns(room=1)
+    for number in range(MOST_CASES + 10):
+        runs.keep(str(number), "", b"xx")
+    assert len(runs.cases) == MOST_CASES
+    assert str(MOST_CASES + 9) in runs.cases

@@ -3,7 +3,9 @@
 import asyncio
 import itertools
 import json
+import re
 import stat
+import sys
 import time
 
 import pytest
@@ -11,8 +13,9 @@ from tests.unit.workbench.host import SOON, Host, Pretending, hosting, in_loop
 from tornado.httpclient import HTTPClientError
 
 from tribodyn.core.errors import InputError
+from tribodyn.workbench.access import same
 from tribodyn.workbench.messages import LARGEST
-from tribodyn.workbench.server import listening, pointer
+from tribodyn.workbench.server import listening, own_name, pointer
 from tribodyn.workbench.server_state import Rules
 
 SHOWN = ("/", "/assets/a.js")  #: What a cookie alone opens: nothing in it is of a person.
@@ -273,3 +276,16 @@ def test_the_browser_is_pointed_by_a_file_for_the_eyes_of_this_user():
         assert stat.S_IMODE(path.stat().st_mode) == 0o600
         assert "http://127.0.0.1:1/?token=x" in path.read_text()
     assert not path.exists()
+
+
+@pytest.mark.skipif(sys.platform == "darwin", reason="browsers do not find such names there")
+def test_it_has_a_name_that_nobody_can_guess():
+    names = {own_name() for _ in range(10)}
+    assert len(names) == 10
+    assert all(re.fullmatch(r"[0-9a-f]{32}\.localhost", name) for name in names)
+
+
+def test_secrets_are_compared_whole():
+    assert same("abc", "abc")
+    assert not same("abc", "abd")
+    assert not same("", "abc")

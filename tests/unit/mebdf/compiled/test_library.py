@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from mebdf.compiled import build as libraries_build
 from mebdf.compiled import library as libraries
 from mebdf.compiled import make
 from mebdf.compiled.library import MANIFEST, Library, NoMachineCode, Sources, fingerprint, library
@@ -193,3 +194,22 @@ def test_sources_that_cannot_be_read_have_no_library(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         fingerprint(sources(tmp_path))
     assert library(sources(tmp_path)) is None
+
+
+def test_paths_of_the_machine_leave_nothing_in_the_code() -> None:
+    kept = []
+    for path in ("/a", "/a/longer/path"):
+        data, name = f"pickled with {path}", "0123abcd"
+        text = (
+            f'@.const.pickledata.{name} = internal constant [{len(data)} x i8] c"{data}"\n'
+            f"@.const.picklebuf.{name} = internal constant {{ ptr, i32, ptr }} "
+            f"{{ ptr @.const.pickledata.{name}, i32 {len(data)}, ptr null }}, align 8\n"
+        )
+        kept.append(libraries_build._portable(text))
+    assert kept[0] == kept[1]
+
+
+def test_an_unknown_level_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TRIBODYN_LEVEL", "v9")
+    with pytest.raises(NoMachineCode, match="choose v3 or baseline"):
+        libraries.level.__wrapped__()

@@ -7,11 +7,13 @@ import pytest
 import xarray as xr
 
 from tribodyn.papers.cheng_2022.claims import CLAIMS, Claim, Finding, Row, as_text
-from tribodyn.papers.cheng_2022.claims.base import CLOSE, NEAR, SENTENCES, above, below, near
+from tribodyn.papers.cheng_2022.claims.base import CLOSE, NEAR, SENTENCES, VERDICTS, above, below, near
 from tribodyn.papers.cheng_2022.claims.ensemble import Judgement
 from tribodyn.papers.cheng_2022.claims.errors import speed_trend
 from tribodyn.papers.cheng_2022.claims.journal import fall_time, late_motion
 from tribodyn.papers.cheng_2022.claims.pressure import ZONE, contact_arc
+from tribodyn.papers.cheng_2022.claims.summary import as_markdown as counts_as_markdown
+from tribodyn.papers.cheng_2022.claims.summary import by_sentence, summarise
 from tribodyn.papers.cheng_2022.runs import joined
 
 
@@ -173,3 +175,29 @@ def test_runs_with_rows_of_their_own_come_side_by_side():
     assert whole["a"].dims == ("law", "time")
     np.testing.assert_allclose(whole["a"].values, 2.0 * np.array([[0.0, 1.0, 2.0, 3.0]] * 2), rtol=1e-15)
     np.testing.assert_allclose(whole["c"].values[1], np.outer([0.0, 1.0, 2.0, 3.0], [1, 3]), rtol=1e-15)
+
+
+def test_scaled_bounds_keep_their_origin_and_the_paper_s_stay():
+    assert near(2.0, "N").scaled(2.0).full == pytest.approx((2.0 / 1.5, 3.0))
+    assert near(2.0, "N").scaled(0.5).partly == pytest.approx((2.0 / 1.5, 3.0))
+    assert above(90.0, "%", partly=50.0, origin=100.0).scaled(2.0).full[0] == 80.0
+    assert below(5.0, "%", partly=20.0).scaled(0.5).partly[1] == 10.0
+    assert above(1.0, by="the paper").scaled(2.0) == above(1.0, by="the paper")
+
+
+def test_counts_by_row_and_by_sentence(claim, row):
+    def other(claim, verdict):
+        return Row(claim, {}, {"paper": judged(verdict), "exact": judged("reproduced")})
+
+    everything = Claim("c", tuple(SENTENCES), "all", "whole", above(0.0))
+    rows = [row, other(claim_of(below(5.0)), "reproduced"), other(claim, "contradicted")]
+    rows += [other(everything, "reproduced")]
+    counts = summarise(rows)
+    assert counts["by_row"]["paper"] == dict.fromkeys(VERDICTS, 0) | {"reproduced": 3, "contradicted": 1}
+    # The least favourable verdict of its rows is that of the sentence.
+    assert by_sentence(rows, "paper")["F1"] == "contradicted"
+    assert by_sentence(rows, "exact")["F1"] == "not decidable"
+    assert counts["by_sentence"]["paper"]["reproduced"] == len(SENTENCES) - 1
+    assert (counts["favourable"], counts["favourable_by_our_bounds"]) == (3, 3)
+    text = counts_as_markdown(counts)
+    assert f"| contradicted | {VERDICTS['contradicted']} | 1 | 0 | 1 | 0 |" in text

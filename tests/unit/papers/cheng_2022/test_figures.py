@@ -1,11 +1,12 @@
 """Figures of the paper are drawn where its claims are judged; ``make check`` draws and judges all of them."""
 
 import numpy as np
+import xarray as xr
 from matplotlib.collections import QuadMesh
 
 from tribodyn.papers.cheng_2022.claims.pressure import contact_arc
 from tribodyn.papers.cheng_2022.figures import FIGURES, Runs
-from tribodyn.papers.cheng_2022.runs import CLEARANCES
+from tribodyn.papers.cheng_2022.runs import CLEARANCES, on_grid
 
 ENDS = (CLEARANCES[0], CLEARANCES[-1])
 COARSE = {"solver.grid.theta": 32, "solver.grid.z": 6}
@@ -47,3 +48,24 @@ def _peak_of_map(axes) -> float:
 def _apart(one: float, other: float) -> float:
     """Return the distance of two angles [deg]."""
     return abs((one - other + 180.0) % 360.0 - 180.0)
+
+
+def test_fields_at_other_nodes_are_linear_between_their_own():
+
+    theta, z = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False), np.array([-1.0, 0.0, 1.0])
+    run = xr.Dataset(
+        {"depth": (("theta", "z"), np.outer(np.arange(8.0), z + 2.0))}, coords={"theta": theta, "z": z}
+    )
+    np.testing.assert_allclose(on_grid(run, theta, z)["depth"], run["depth"], atol=1e-14)
+    # Half a step behind the last node, where the first comes again: half of both.
+    other = on_grid(run, np.array([theta[1] / 2.0, theta[-1] + theta[1] / 2.0]), np.array([0.5]))
+    np.testing.assert_allclose(other["depth"].values.ravel(), [0.5 * 2.5, 3.5 * 2.5])
+
+
+def test_a_figure_leaves_the_runs_that_claims_are_judged_on():
+    run = RUNS.vsv("paper", 20e-6)
+    of_the_run = run["pressure"].values.copy()
+    drawn = FIGURES["fig15"].data(RUNS, "paper")
+    assert np.array_equal(run["pressure"].values, of_the_run)
+    # The figure shows static equilibrium, which is another field.
+    assert not np.allclose(drawn["pressure"].values, of_the_run, rtol=0.01)

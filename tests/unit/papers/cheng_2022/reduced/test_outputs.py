@@ -6,8 +6,9 @@ import xarray as xr
 
 import tribodyn as td
 from tribodyn.cases.tables import keys_in
+from tribodyn.core.errors import TribodynError
 from tribodyn.mechanisms.catalogue import parse_case
-from tribodyn.mechanisms.results import summarise
+from tribodyn.mechanisms.results import key_results_of_case, summarise
 from tribodyn.papers.cheng_2022.reduced.descriptor import ENGINE
 from tribodyn.results.reading import column, settled
 
@@ -142,3 +143,14 @@ def test_the_force_changes_its_sign_with_the_gas_moment(engine: xr.Dataset) -> N
     assert turned.size == 1
     assert turned[0] == pytest.approx(90.0, abs=5.0)
     assert (np.diff(later["theta_v"]) > 0.0).all()
+
+
+def test_commands_find_the_names() -> None:
+    case = td.load_case("vsv").replace({"outputs.vane.at.angles": "5 deg"})
+    known = key_results_of_case(case)
+    assert {"error_sustained_deg_vane", "error_at_backward_deg_vane_5_deg"} <= known.keys()
+
+
+def test_another_limit_is_refused() -> None:
+    with pytest.raises(TribodynError, match="the limit of this error is angle_error_limit"):
+        td.load_case("vsv").replace({"outputs.vane.angular_velocity_error_limit": "1 deg/s"})
