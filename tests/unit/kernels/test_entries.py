@@ -6,6 +6,7 @@ import ast
 import importlib
 import json
 import os
+import pkgutil
 import random
 import re
 import struct
@@ -20,8 +21,8 @@ import numpy as np
 import pytest
 from llvmlite.binding.object_file import ObjectFileRef
 
-import mebdf
-import tribodyn
+import mebdf.kernels
+import tribodyn.kernels
 from mebdf.compiled.build import ALLOWED
 from mebdf.compiled.kernel import Kernel, entries
 from mebdf.compiled.layouts import Absent, Array, Layout, Number, One, Tuple
@@ -213,3 +214,15 @@ def test_a_thousand_wrong_arguments_are_refused() -> None:
         given[place] = spoiled(kernel.layouts[place], luck)
         with pytest.raises(TypeError):
             kernel(*given)
+
+
+def test_no_field_hides_behind_an_attribute_of_records():
+    """Python would read the attribute, compiled code the field: ``size`` of a record is always 1."""
+    hidden, found = set(dir(np.record)), 0
+    for package in (mebdf.kernels, tribodyn.kernels):
+        for about in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            for name, kind in vars(importlib.import_module(about.name)).items():
+                if isinstance(kind, np.dtype) and kind.names:
+                    found += 1
+                    assert not set(kind.names) & hidden, (about.name, name)
+    assert found > 30

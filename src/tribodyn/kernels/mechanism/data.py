@@ -87,7 +87,7 @@ N_POWERS: Final = 5  #: Powers of a coupling, and their number.
 #: and of entries of the iteration matrix that solutions need.
 Constants: Final = record_type(
     ("gravity", "f8", (3,)),
-    ("size", "f8"),
+    ("extent", "f8"),
     *((name, "i8") for name in ("n_rows", "rank", "n_nodes", "n_work", "n_reactive", "n_entries")),
 )
 

@@ -45,7 +45,7 @@ def follow(
     for k in range(first, times.size):
         kinematics(parts, now, signals, times[k])
         mark_angles(now.couplings)
-        if not largest_residual(parts, now, parts.constants.size) <= most:
+        if not largest_residual(parts, now, parts.constants.extent) <= most:
             return k
         if parts.constants.rank < parts.constants.n_rows and wait <= 0:
             choose_rows(parts, now, matrix)
@@ -53,9 +53,9 @@ def follow(
         wait -= 1
         for _ in range(_TRIES):
             close(parts, now, signals, pattern, blocks, times[k])
-            if largest_residual(parts, now, parts.constants.size) <= closed:
+            if largest_residual(parts, now, parts.constants.extent) <= closed:
                 break
-        if not largest_residual(parts, now, parts.constants.size) <= closed:
+        if not largest_residual(parts, now, parts.constants.extent) <= closed:
             return k
         _stop(now.bodies)
         correct_velocities(parts, now, pattern, blocks, 0.0)

@@ -267,7 +267,7 @@ OPEN: Final = 1.0e-6
 @kernel
 def watch(data: MechanismData, memory: MechanismMemory) -> None:
     """Note the first joint whose model does not hold where ``advance`` has left the mechanism."""
-    course, size = memory.now.course, data.parts.constants.size
+    course, size = memory.now.course, data.parts.constants.extent
     for k in range(data.parts.couplings.size):
         if course.broken != INTACT:
             return

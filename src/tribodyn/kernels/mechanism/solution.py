@@ -322,7 +322,7 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
     Those of where the bodies are must have been filled. Return how many corrections it took; the factors are
     those of where the bodies were before the last one.
     """
-    closed, corrections = CLOSED * parts.constants.size, 0
+    closed, corrections = CLOSED * parts.constants.extent, 0
     gap = _gap(parts, now)
     while corrections < MOST_CORRECTIONS and not gap <= closed:
         corrections += 1
@@ -331,7 +331,7 @@ def close(parts: Parts, now: Now, signals: Signals, pattern: Pattern, blocks: Fl
         for b in range(parts.bodies.size):
             move(now.bodies[b], now.x[b], now.rest[b, :4])
         fill_positions(parts, now, signals, t)
-        if gap > FAR * parts.constants.size:
+        if gap > FAR * parts.constants.extent:
             mark_angles(now.couplings)
         before = gap
         gap = _gap(parts, now)

@@ -91,7 +91,7 @@ class Assembly:
     def notes(self) -> tuple[str, ...]:
         """Return that bodies do not start where the model has them."""
         farthest = int(np.argmax(self.moved))
-        if self.moved[farthest] <= CLOSED * float(self.data.parts.constants.size):
+        if self.moved[farthest] <= CLOSED * float(self.data.parts.constants.extent):
             return ()
         body = self.model.bodies[farthest]
         return (f"assembly moved {body} by {self.moved[farthest] * 1e3:.4g} mm to close the joints",)

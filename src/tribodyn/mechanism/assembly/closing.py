@@ -69,7 +69,7 @@ class System:
         self.parts, self.now, self._blocks = self.data.parts, memory.now, memory.blocks
         self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]
         self.n = len(model.bodies)
-        self.size = float(self.parts.constants.size)
+        self.size = float(self.parts.constants.extent)
         self._wait = 0
         self.known_rank: int | None = None
         self._later_legs = [

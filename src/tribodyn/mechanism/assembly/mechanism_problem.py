@@ -132,7 +132,7 @@ def length_scale(assembly: Assembly) -> float:
 
     The smallest clearance as drawn; without any the presliding of friction, or a tenth of the mechanism.
     """
-    friction, size = assembly.model.case.friction, float(assembly.data.parts.constants.size)
+    friction, size = assembly.model.case.friction, float(assembly.data.parts.constants.extent)
     clearances = [real.shape.clearance for real in assembly.model.clearances.values()]
     return min(clearances, default=friction.presliding if friction.rest else 0.1 * size)
 
@@ -147,7 +147,7 @@ def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
 
 def _scales(assembly: Assembly, duration: float) -> FloatArray:
     """Return the scales of positions, orientations, velocities and angular velocities, shape (4,)."""
-    size, length = float(assembly.data.parts.constants.size), length_scale(assembly)
+    size, length = float(assembly.data.parts.constants.extent), length_scale(assembly)
     state, slowest = assembly.state.reshape(-1, N_STATES), size / duration
     falling = float(np.sqrt(dense.norm(assembly.model.case.gravity) * size))
     speed = max(_fastest(state[:, VELOCITY:TURNING], state[:, TURNING:], size), falling, slowest)

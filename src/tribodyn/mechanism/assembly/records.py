@@ -54,7 +54,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bo
     constants.n_reactive = int(np.sum((couplings.load_of != NONE) | couplings.push.any(axis=1)))
     constants.n_nodes = max(len(model.bodies), 1 + int(np.max(couplings.node, initial=NONE)))
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
-    constants.size = _size(model)
+    constants.extent = _size(model)
     clearances = tuple(model.clearances.values()) if contacts else ()
     contact = surfaces(clearances, worn)
     oiled = any(clearance.film is not None for clearance in clearances)

@@ -54,7 +54,7 @@ Scratch: Final = record_type(
     ("moving", "f8", (6,)),
     ("strained", "f8", (6,)),
     ("growth", "f8", (6,)),
-    ("size", "f8"),
+    ("magnitude", "f8"),
     ("ring_sums", "f8", (WIDTH * WIDTH * N_SUMS,)),
     ("ring_slopes", "f8", (WIDTH * 5 * 36,)),
     ("listed", Listed),
@@ -73,7 +73,7 @@ normal_place, normal_rate, friction_place, friction_rate, friction_slip
     Derivatives of normal and friction in (d, φ), (v, φ̇), and (v, ω).
 moment, rigid_moment
     Moments of the pressure and of its rigid part, turned.
-moving, strained, growth, size
+moving, strained, growth, magnitude
     Slip and angular velocity of the station without what sticks; U, see above; the size √(u² + l² w²) of what
     U was before its bound, and the derivative of half its square.
 """
@@ -197,8 +197,8 @@ def add_strain(memory: SurfaceMemory, s: int, j: int, pose: Record) -> None:
         scratch.moving[i], scratch.moving[3 + i] = station.slip[i], station.w[i]
     x, z, u = scratch.strained, station.height, station.axis
     _fill_strained(memory, s, j, pose, x)
-    scratch.size = _size_of(strain, x, scratch.growth)
-    bound = _bound(strain, scratch.size)
+    scratch.magnitude = _size_of(strain, x, scratch.growth)
+    bound = _bound(strain, scratch.magnitude)
     for i in range(6):
         x[i] *= bound
     for i in range(3):
@@ -210,12 +210,12 @@ def add_strain(memory: SurfaceMemory, s: int, j: int, pose: Record) -> None:
 @kernel
 def add_stiffness(strain: FloatArray, scratch: Record, jacobian: FloatArray) -> None:
     """Add the derivatives of the elastic slip in the pose to ``jacobian`` (6, 12)."""
-    slip, bound = scratch.friction_slip, _bound(strain, scratch.size)
+    slip, bound = scratch.friction_slip, _bound(strain, scratch.magnitude)
     for i in range(6):
         along = 0.0
         if bound < 1.0:
             for k in range(6):
-                along += slip[i, k] * scratch.strained[k] / scratch.size**2
+                along += slip[i, k] * scratch.strained[k] / scratch.magnitude**2
         for k in range(6):
             jacobian[i, k] += strain[RATE] * (bound * slip[i, k] - along * scratch.growth[k])
 
