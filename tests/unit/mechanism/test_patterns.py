@@ -10,6 +10,7 @@ import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
+from tribodyn.mechanism.results.copies import worst
 from tribodyn.mechanisms.catalogue import MECHANISMS, parse_case
 
 RING: Final = """
@@ -233,3 +234,9 @@ def test_a_written_case_with_elastic_copies_reads_back() -> None:
     """Copies are written as their nodes; figures and reports of a result read the case again."""
     ring = parse_case(TEMPLATES["vsv-ring"].text, "test")
     assert parse_case(ring.to_toml(), "test") == ring
+
+
+def test_the_worst_copy_is_so_over_time_and_not_over_rows():
+    time, error = np.append(np.linspace(0.0, 0.01, 100), [0.0101, 1.0]), np.zeros((102, 3))
+    error[:100, 0], error[100:, 2] = 1.0, 0.5
+    assert worst(error, time) == 2

@@ -46,15 +46,24 @@ def apart(error: FloatArray) -> FloatArray:
     return np.asarray(error - error.mean(axis=1, keepdims=True))
 
 
-def worst(error: FloatArray) -> int:
-    """Return the place of the copy whose errors (n_t, n) are furthest from the mean of all."""
-    return int(np.argmax(np.mean(apart(error) ** 2, axis=0)))
+def over_time(values: FloatArray, time: FloatArray) -> FloatArray:
+    """Return the means of values (n_t, ...) over time; rows are not evenly spaced."""
+    if time.size < 2:
+        return np.asarray(values.mean(axis=0))
+    return np.asarray(np.trapezoid(values, time, axis=0) / (time[-1] - time[0]))
+
+
+def worst(error: FloatArray, time: FloatArray) -> int:
+    """Return the place of the copy whose errors (n_t, n) are furthest from the mean of all over time."""
+    return int(np.argmax(over_time(apart(error) ** 2, time)))
 
 
 def worst_copies(dataset: xr.Dataset) -> list[str]:
     """Return the ends of the names of the parts of the copies that are furthest from the mean: ``[7]``."""
-    error = column(dataset, "output_error")
-    return [f"[{1 + worst(error[:, numbers])}]" for numbers in copies_of(dataset).values() if error.size]
+    error, time = column(dataset, "output_error"), column(dataset, "time")
+    return [
+        f"[{1 + worst(error[:, numbers], time)}]" for numbers in copies_of(dataset).values() if error.size
+    ]
 
 
 def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[str]:
@@ -68,7 +77,8 @@ def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[s
     if not time.size:
         return
     period = case.period or math.inf
-    errors = errors[time >= (period if time[-1] >= 2.0 * period * (1.0 - 1e-9) else 0.0)]
+    chosen = time >= (period if time[-1] >= 2.0 * period * (1.0 - 1e-9) else 0.0)
+    errors, time = errors[chosen], time[chosen]
     values = _differing(case)
     for name, numbers in _numbered(case.outputs).items():
         error = apart(errors[:, numbers])
@@ -77,7 +87,7 @@ def why(case: MechanismCase, time: FloatArray, errors: FloatArray) -> Iterator[s
             continue
         off = np.array([(of - of.mean()) / of.std() for of in own.values()]).T
         factors, *_ = np.linalg.lstsq(off, error.T, rcond=None)
-        k = worst(error)
+        k = worst(error, time)
         parts = np.sum(factors * off[k][:, None] * error[:, k], axis=1) / np.sum(error[:, k] ** 2)
         causes = (
             f"{part:.0%} of that by {key}, {place:+.2g} standard deviations off"
@@ -123,11 +133,8 @@ def _hysteresis(dataset: xr.Dataset, numbers: list[int], scale: float) -> float:
 
 
 def _sigma(error: FloatArray, time: FloatArray) -> float:
-    """Return the standard deviation over copies, root mean square over time: rows are not evenly spaced."""
-    variance = np.var(error, axis=1)
-    if time.size > 1:
-        variance = np.trapezoid(variance, time) / (time[-1] - time[0])
-    return float(np.sqrt(np.mean(variance)))
+    """Return the standard deviation over copies, root mean square over time."""
+    return float(np.sqrt(over_time(np.var(error, axis=1), time)))
 
 
 _NUMBERS: Final[dict[str, tuple[str, str, Callable[[FloatArray, FloatArray], float]]]] = {
@@ -161,7 +168,8 @@ def _which(dataset: xr.Dataset) -> float:
     numbers = next(iter(copies_of(dataset).values()), None)
     if numbers is None:
         return math.nan
-    return 1.0 + worst(settled(dataset, column(dataset, "output_error")[:, numbers]))
+    error, time = column(dataset, "output_error")[:, numbers], column(dataset, "time")
+    return 1.0 + worst(settled(dataset, error), settled(dataset, time))
 
 
 def _beyond(dataset: xr.Dataset) -> float:

@@ -145,7 +145,7 @@ def _of_copies(dataset: xr.Dataset) -> Iterator[tuple[str, list[ChartCurve]]]:
     for name, numbers in copies_of(dataset).items():
         unit = ERROR_UNITS[str(dataset["output_unit"].values[numbers[0]])]
         error = unit.scale * dataset["output_error"].values[:, numbers]
-        k = worst(error)
+        k = worst(error, dataset["time"].values)
         lines = {"largest": error.max(axis=1), "mean": error.mean(axis=1), "least": error.min(axis=1)}
         lines[f"{name}[{k + 1}]"] = error[:, k]
         drawn = [

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from mebdf.arrays import FloatArray
-from tribodyn.mechanism.results.copies import copies_of, worst
+from tribodyn.mechanism.results.copies import copies_of, over_time, worst
 from tribodyn.results.reading import column, settled
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.views.charts import ChartCurve, Panel, over
@@ -55,10 +55,11 @@ def around(dataset: xr.Dataset) -> list[Around]:
     for name, numbers in copies_of(dataset).items() if dataset.sizes["time"] else ():
         unit = ERROR_UNITS[str(dataset["output_unit"].values[numbers[0]])]
         error = unit.scale * settled(dataset, column(dataset, "output_error")[:, numbers])
+        time = settled(dataset, column(dataset, "time"))
         angles = 2.0 * np.pi * np.arange(len(numbers)) / len(numbers)
-        ends = error.min(axis=0), error.max(axis=0), error.mean(axis=0)
+        ends = error.min(axis=0), error.max(axis=0), over_time(error, time)
         limit = unit.scale * float(column(dataset, "output_error_limit")[numbers[0]])
-        found.append(Around(name, unit.shown, angles, *ends, worst(error), limit))
+        found.append(Around(name, unit.shown, angles, *ends, worst(error, time), limit))
     return found
 
 
