@@ -27,7 +27,7 @@ from tribodyn.joints.bushing import pose_at
 from tribodyn.joints.point_contact import point_damping
 from tribodyn.kernels.joints.bushing import update_entry_velocity, wrench
 from tribodyn.kernels.joints.pose import N_WRENCH
-from tribodyn.kernels.vsv import data
+from tribodyn.kernels.vsv import data as layout
 from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
@@ -55,7 +55,7 @@ class ExudynModel:
     def __init__(self, case: VsvCase, vsv: Vsv, problem: Problem, contact: str) -> None:
         self.case, self.vsv, self.surface = case, vsv, contact == "surface"
         self.data, self.memory = constants(problem.data), problem.memory.joint
-        self.motion = np.zeros((data.N_ROWS, data.N_COLUMNS))
+        self.motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
         mechanism = problem.data.mechanism
         fill_motion(mechanism, sinusoid(mechanism, 0.0), problem.y0, self.motion)
         self.container = exu.SystemContainer()
@@ -71,10 +71,10 @@ class ExudynModel:
         self.mbs.SetPreStepUserFunction(self._before_step)
 
     def _value(self, row: int) -> float:
-        return float(self.motion[row, data.VALUE])
+        return float(self.motion[row, layout.VALUE])
 
     def _point(self, row: int) -> FloatArray:
-        return np.array(self.motion[row : row + 3, data.VALUE])
+        return np.array(self.motion[row : row + 3, layout.VALUE])
 
     def _body(self, mass: float, inertia: tuple[float, ...], place: Any, angles: Any) -> tuple[int, int]:
         """Add a rigid body with its mass centre at a place; return its node and its number."""
@@ -115,19 +115,19 @@ class ExudynModel:
 
     def _rod_and_ring(self) -> None:
         """Add the drag link, along its own Z axis, and the ring, whose frame θ_b turns about −Y."""
-        d, n = self.data, self._point(data.N_X)
+        d, n = self.data, self._point(layout.N_X)
         along = (math.atan2(-n[1], n[2]), math.asin(n[0]), 0.0)
         across = d.link_inertia
-        _, self.link = self._body(d.m_2, (across, across, SPIN), self._point(data.O2_X), along)
-        turned = (0.0, -self._value(data.THETA_B), 0.0)
-        _, self.ring = self._body(d.m_3, (d.ring_inertia,) * 3, self._point(data.O3_X), turned)
+        _, self.link = self._body(d.m_2, (across, across, SPIN), self._point(layout.O2_X), along)
+        turned = (0.0, -self._value(layout.THETA_B), 0.0)
+        _, self.ring = self._body(d.m_3, (d.ring_inertia,) * 3, self._point(layout.O3_X), turned)
 
     def _vane(self, y0: FloatArray) -> None:
         """Add the vane with its trunnion; O_j is at (0, 0, vane_arm) of its frame."""
         d, across = self.data, self.vsv.vane_inertia
         axis = np.array([-math.tan(y0[3]), -math.tan(y0[2]), 1.0])
         axis /= np.linalg.norm(axis)
-        angles = (math.atan2(-axis[1], axis[2]), math.asin(axis[0]), self._value(data.THETA_V))
+        angles = (math.atan2(-axis[1], axis[2]), math.asin(axis[0]), self._value(layout.THETA_V))
         centre = np.array([y0[0], y0[1], self.height]) - d.vane_arm * axis
         inertia = (across, across, self.vsv.inertias.J_vz)
         self.vane_node, self.vane = self._body(d.m_v, inertia, centre, angles)
@@ -160,8 +160,8 @@ class ExudynModel:
         mbs, d = self.mbs, self.data
         for marker, weight in (
             (self.trunnion, -d.vane_weight),
-            (self._marker(self.link), d.weight[data.O2_Z]),
-            (self._marker(self.ring), d.weight[data.O3_Z]),
+            (self._marker(self.link), d.weight[layout.O2_Z]),
+            (self._marker(self.ring), d.weight[layout.O3_Z]),
         ):
             mbs.AddLoad(items.LoadForceVector(markerNumber=marker, loadVector=[0.0, 0.0, weight]))
         centre = self._marker(self.vane)

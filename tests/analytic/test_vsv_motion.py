@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.kernels.vsv import data
+from tribodyn.kernels.vsv import data as layout
 from tribodyn.kernels.vsv.closure import sinusoid
 from tribodyn.kernels.vsv.motion import fill_motion
 from tribodyn.papers.cheng_2022.reduced.parameters import CrankMotion
@@ -24,7 +24,7 @@ FORMULATIONS = ("exact", "paper")
 
 
 def motion_table(vsv, t, q, rates):
-    motion = np.zeros((data.N_ROWS, data.N_COLUMNS))
+    motion = np.zeros((layout.N_ROWS, layout.N_COLUMNS))
     mechanism = vsv_data(vsv).mechanism
     fill_motion(mechanism, sinusoid(mechanism, t), np.concatenate([q, rates]), motion)
     return motion
@@ -39,7 +39,7 @@ def draw(seed):
 
 def assert_close(found, expected):
     """Compare to the largest entry of each row, or to 1e-2 where a row has nothing larger."""
-    found, expected = found.reshape(data.N_ROWS, -1), expected.reshape(data.N_ROWS, -1)
+    found, expected = found.reshape(layout.N_ROWS, -1), expected.reshape(layout.N_ROWS, -1)
     scale = np.maximum(np.abs(expected).max(axis=1), 1e-2)
     assert (np.abs(found - expected).max(axis=1) / scale).max() < ROUNDING
 
@@ -50,7 +50,7 @@ def test_values(make_vsv, make_positions, formulation, seed):
     vsv = make_vsv(formulation)
     t, q, rates, _ = draw(seed)
     positions = make_positions(vsv)
-    value = motion_table(vsv, t, q, rates)[:, data.VALUE]
+    value = motion_table(vsv, t, q, rates)[:, layout.VALUE]
     np.testing.assert_allclose(value, positions.at(positions.crank(t), q), rtol=0.0, atol=5e-15)
 
 
@@ -61,7 +61,7 @@ def test_partial_derivatives(make_vsv, make_positions, formulation, seed):
     t, q, rates, _ = draw(seed)
     positions = make_positions(vsv)
     start = np.concatenate([[positions.crank(t)], q])
-    expected = np.empty((data.N_ROWS, 5))
+    expected = np.empty((layout.N_ROWS, 5))
     weights = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
     for k, step in enumerate(PARTIAL_STEP):
         line = [start + step * m * np.eye(5)[k] for m in range(-3, 4)]
@@ -81,8 +81,8 @@ def test_velocity_and_acceleration_along_a_path(make_vsv, make_positions, formul
 
     velocity, acceleration = make_positions(vsv).along(path, t, TIME_STEP)
     motion = motion_table(vsv, t, q, rates)
-    assert_close(motion[:, data.VELOCITY], velocity)
-    assert_close(motion[:, data.BIAS] + motion[:, 1:5] @ accelerations, acceleration)
+    assert_close(motion[:, layout.VELOCITY], velocity)
+    assert_close(motion[:, layout.BIAS] + motion[:, 1:5] @ accelerations, acceleration)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -90,15 +90,15 @@ def test_bias_is_the_acceleration_of_uniform_clearance_motion(make_vsv, make_pos
     vsv = make_vsv("exact")
     t, q, rates, _ = draw(seed)
     _, acceleration = make_positions(vsv).along(lambda time: q + rates * (time - t), t, TIME_STEP)
-    assert_close(motion_table(vsv, t, q, rates)[:, data.BIAS], acceleration)
+    assert_close(motion_table(vsv, t, q, rates)[:, layout.BIAS], acceleration)
 
 
 def test_paper_shifts_the_rods_but_does_not_turn_them(make_vsv):
     # The clearance moves O2 by (e_x/2, e_y/2) and O3 by (e_x/2, e_y); vane, ring and link turn as the ideal.
     t, q, rates, _ = draw(0)
     motion = motion_table(make_vsv("paper"), t, q, rates)
-    moved = {data.O2_X: (1, 0.5), data.O2_Y: (2, 0.5), data.O3_X: (1, 0.5), data.O3_Y: (2, 1.0)}
-    for row in range(data.OV_X):
+    moved = {layout.O2_X: (1, 0.5), layout.O2_Y: (2, 0.5), layout.O3_X: (1, 0.5), layout.O3_Y: (2, 1.0)}
+    for row in range(layout.OV_X):
         expected = np.zeros(4)
         if row in moved:
             expected[moved[row][0] - 1] = moved[row][1]
@@ -111,5 +111,5 @@ def test_where_the_loop_cannot_close_there_is_no_number(make_vsv):
     vsv = replace(vsv, drive=CrankMotion(np.radians(-23.57), np.radians(5.0), 1.0))
     inside = motion_table(vsv, 0.0, np.array([40e-6, 0.0, 0.0, 0.0]), np.zeros(4))
     beyond = motion_table(vsv, 0.0, np.array([-40e-6, 0.0, 0.0, 0.0]), np.zeros(4))
-    assert np.degrees(inside[data.THETA_V, data.VALUE]) == pytest.approx(30.8, abs=0.1)
-    assert np.isnan(beyond[data.THETA_V, data.VALUE])
+    assert np.degrees(inside[layout.THETA_V, layout.VALUE]) == pytest.approx(30.8, abs=0.1)
+    assert np.isnan(beyond[layout.THETA_V, layout.VALUE])

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from tribodyn.kernels.vsv import data as layout
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.data import AIR_M, AIR_X, AIR_Y
 
@@ -38,11 +39,11 @@ def instant(vsv, data, memory, t, y):
     scratch = memory.scratch
     motion = scratch.motion
     now = SimpleNamespace(vsv=vsv, y=y, wrench=scratch.wrench.copy(), air=scratch.air.copy())
-    for name, row in (("a", data.THETA_A), ("b", data.THETA_B), ("v", data.THETA_V)):
-        setattr(now, name, motion[row, [data.VALUE, data.VELOCITY, data.BIAS]].copy())
-    rod = slice(data.N_X, data.N_Z + 1)
-    now.n = motion[rod][:, [data.VALUE, data.VELOCITY, data.BIAS]].T.copy()
-    now.collar = scratch.collar[[data.PHI_X, data.PHI_Y, data.THETA_V]] * vsv.inertias.m_v * vsv.gravity
+    for name, row in (("a", layout.THETA_A), ("b", layout.THETA_B), ("v", layout.THETA_V)):
+        setattr(now, name, motion[row, [layout.VALUE, layout.VELOCITY, layout.BIAS]].copy())
+    rod = slice(layout.N_X, layout.N_Z + 1)
+    now.n = motion[rod][:, [layout.VALUE, layout.VELOCITY, layout.BIAS]].T.copy()
+    now.collar = scratch.collar[[layout.PHI_X, layout.PHI_Y, layout.THETA_V]] * vsv.inertias.m_v * vsv.gravity
     return now
 
 

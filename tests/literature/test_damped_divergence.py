@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from tribodyn.integrate import integrate
-from tribodyn.kernels.vsv import data, functions
+from tribodyn.kernels.vsv import data as layout
+from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.quantities import WATCHED
 from tribodyn.mechanisms.results import of_reversals
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_problem
@@ -27,7 +28,7 @@ def after_reversal(vsv, moment, rtol, *, ring_along_y=True, duration=3.3):
     atol = tuple(1e4 * rtol * np.array([1e-11, 1e-9, 1e-7, 1e-5]))
     problem = vsv_problem(loaded, duration=duration, start="equilibrium", atol=atol)
     if not ring_along_y:
-        problem.data.mechanism.inertia[data.O3_Y] = 0.0
+        problem.data.mechanism.inertia[layout.O3_Y] = 0.0
     solution = integrate(problem, solver="mebdf", rtol=rtol, output_times=[0.0])
     peaks = of_reversals(problem.memory.peaks, WATCHED)
     return peaks["contact_force_impact"][1], solution.complete
@@ -74,7 +75,7 @@ def accelerations_by_force(vsv):
     problem = vsv_problem(vsv, duration=3.3, start="centred", atol=(1e-9,) * 4)
     data, memory = problem.data, problem.memory
     functions.rhs(REVERSAL, np.zeros(8), data, memory, np.empty(8))
-    test = memory.scratch.test[[data.E_X, data.E_Y], 1:5]
+    test = memory.scratch.test[[layout.E_X, layout.E_Y], 1:5]
     return np.linalg.solve(memory.scratch.mass[1:5], test.T)[:2]
 
 
@@ -97,5 +98,5 @@ def test_in_exact_both_ways_are_alike(make_vsv):
 def test_the_ring_follows_the_trunnion_by_the_turn_of_the_vane(make_vsv):
     problem = vsv_problem(make_vsv(), duration=3.3, start="centred", atol=(1e-9,) * 4)
     functions.rhs(REVERSAL, np.zeros(8), problem.data, problem.memory, np.empty(8))
-    along_y = problem.memory.scratch.motion[data.O3_Y, 1:3]
+    along_y = problem.memory.scratch.motion[layout.O3_Y, 1:3]
     np.testing.assert_allclose(along_y, [-0.564, 0.966], atol=5e-4)

@@ -17,6 +17,7 @@ from tests.literature.elimination import (
     ring_arms,
 )
 
+from tribodyn.kernels.vsv import data as layout
 from tribodyn.kernels.vsv import functions
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
@@ -170,10 +171,10 @@ def test_what_follows_e_x_by_the_closure(make_vsv, crank, ring, link):
     t = math.acos(1.0 - (crank + 16.0) / 20.0)
     functions.rhs(t, CENTRED, data, memory, np.empty(8))
     by_e_x = memory.scratch.motion[:, 1 + 0]
-    assert by_e_x[[data.O3_X, data.O3_Y]] == pytest.approx(ring, abs=0.006)
-    assert abs(by_e_x[data.O2_X]) < 0.05
+    assert by_e_x[[layout.O3_X, layout.O3_Y]] == pytest.approx(ring, abs=0.006)
+    assert abs(by_e_x[layout.O2_X]) < 0.05
     if link is not None:
-        assert by_e_x[data.O2_Y] == pytest.approx(link[1], abs=0.006)
+        assert by_e_x[layout.O2_Y] == pytest.approx(link[1], abs=0.006)
 
 
 def test_where_the_lever_meets_the_ring(make_now):

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mebdf.arrays import FloatArray
+from tribodyn.kernels.vsv import data as layout
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.motion import ring_centre
 from tribodyn.papers.cheng_2022.reduced.problem import vsv_data, vsv_memory
@@ -43,22 +44,22 @@ def instant(vsv, data, memory, t):
     functions.enter(t, np.zeros(8), data, memory)
     functions.rhs(t, np.zeros(8), data, memory, np.empty(8))
     motion, m = memory.scratch.motion, vsv.inertias
-    value, acceleration = motion[:, data.VALUE], motion[:, data.BIAS]
-    s2 = value[data.S2_X : data.S2_Z + 1]
-    s1 = np.array([value[data.S1_X], vsv.lengths.l_4, value[data.S1_Z]])
-    n, bend = (column[data.N_X : data.N_Z + 1] for column in (value, acceleration))
+    value, acceleration = motion[:, layout.VALUE], motion[:, layout.BIAS]
+    s2 = value[layout.S2_X : layout.S2_Z + 1]
+    s1 = np.array([value[layout.S1_X], vsv.lengths.l_4, value[layout.S1_Z]])
+    n, bend = (column[layout.N_X : layout.N_Z + 1] for column in (value, acceleration))
     x, z = ring_centre(data.mechanism, s2[0], s2[2])
     o3 = np.array([x, s2[1], z])
     return Instant(
         s1=0.5 * (s1 - s2),
         s2=0.5 * (s2 - s1),
         s2_ring=s2 - o3,
-        s3=value[data.S3_X : data.S3_Z + 1] - o3,
+        s3=value[layout.S3_X : layout.S3_Z + 1] - o3,
         b=-o3 * [1.0, 0.0, 1.0],
-        f_2=-m.m_2 * acceleration[data.O2_X : data.O2_Z + 1],
-        f_3=-m.m_3 * acceleration[data.O3_X : data.O3_Z + 1],
+        f_2=-m.m_2 * acceleration[layout.O2_X : layout.O2_Z + 1],
+        f_3=-m.m_3 * acceleration[layout.O3_X : layout.O3_Z + 1],
         m_2=-vsv.link_inertia * np.cross(n, bend) * [1.0, -1.0, 1.0],  # Eq. 30 is about −Y
-        m_3y=-float(vsv.ring_inertia * acceleration[data.THETA_B]),
+        m_3y=-float(vsv.ring_inertia * acceleration[layout.THETA_B]),
         g_2=m.m_2 * vsv.gravity,
         g_3=m.m_3 * vsv.gravity,
         f_43x=17.0 * float(memory.regime[0]),

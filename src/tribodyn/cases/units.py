@@ -320,7 +320,7 @@ def _scale(unit: str) -> _Scale:
     if unit in _KNOWN:
         return _KNOWN[unit]
     # Loading pint takes longer than reading a case.
-    from tribodyn.cases.known_units import UnknownUnit, looked_up
+    from tribodyn.cases.other_units import UnknownUnit, looked_up
 
     try:
         size, zero, base = looked_up(unit)

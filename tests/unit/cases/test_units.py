@@ -8,7 +8,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from tribodyn.cases.known_units import SIZES, ZEROS, looked_up
+from tribodyn.cases.known_units import SIZES, ZEROS
+from tribodyn.cases.other_units import looked_up
 from tribodyn.cases.units import UnitProblem, dimension, from_si, rms_roughness, si_unit, to_si
 
 UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N", "kg m^2", "ms", "um/s")

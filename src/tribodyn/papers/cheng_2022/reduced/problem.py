@@ -18,7 +18,8 @@ from tribodyn.kernels.joints.bushing import Extremes as CollarExtremes
 from tribodyn.kernels.joints.quantities import SHARP, STATES
 from tribodyn.kernels.ledger import NO_SWING, new_books
 from tribodyn.kernels.peaks import new_peaks
-from tribodyn.kernels.vsv import data, functions
+from tribodyn.kernels.vsv import data as layout
+from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.closure import place
 from tribodyn.kernels.vsv.data import Books, Scratch, VsvData, VsvMemory, new_mechanism
 from tribodyn.kernels.vsv.quantities import FORCES, OBSERVED, WATCHED
@@ -92,25 +93,25 @@ def vsv_data(vsv: Vsv, wear: FloatArray | None = None, duration: float = math.in
 
 def _row_inertia(vsv: Vsv) -> FloatArray:
     """Return the mass or moment of inertia of each row of the motion table."""
-    inertia = np.zeros(data.N_ROWS)
-    inertia[data.THETA_A] = vsv.crank_inertia
-    inertia[data.THETA_B] = vsv.ring_inertia
-    inertia[data.THETA_V] = vsv.inertias.J_vz
-    inertia[[data.O1_X, data.O1_Z]] = vsv.inertias.m_1
-    inertia[data.O2_X : data.O2_Z + 1] = vsv.inertias.m_2
-    inertia[data.N_X : data.N_Z + 1] = vsv.link_inertia
-    inertia[data.O3_X : data.O3_Z + 1] = vsv.inertias.m_3
-    inertia[[data.OV_X, data.OV_Y]] = vsv.inertias.m_v
-    inertia[[data.PHI_X, data.PHI_Y]] = vsv.vane_inertia
+    inertia = np.zeros(layout.N_ROWS)
+    inertia[layout.THETA_A] = vsv.crank_inertia
+    inertia[layout.THETA_B] = vsv.ring_inertia
+    inertia[layout.THETA_V] = vsv.inertias.J_vz
+    inertia[[layout.O1_X, layout.O1_Z]] = vsv.inertias.m_1
+    inertia[layout.O2_X : layout.O2_Z + 1] = vsv.inertias.m_2
+    inertia[layout.N_X : layout.N_Z + 1] = vsv.link_inertia
+    inertia[layout.O3_X : layout.O3_Z + 1] = vsv.inertias.m_3
+    inertia[[layout.OV_X, layout.OV_Y]] = vsv.inertias.m_v
+    inertia[[layout.PHI_X, layout.PHI_Y]] = vsv.vane_inertia
     return inertia
 
 
 def _row_weight(vsv: Vsv) -> FloatArray:
     """Return the gravity load of each row of the motion table [N]."""
-    weight = np.zeros(data.N_ROWS)
-    weight[data.O1_Z] = -vsv.inertias.m_1 * vsv.gravity
-    weight[data.O2_Z] = -vsv.inertias.m_2 * vsv.gravity
-    weight[data.O3_Z] = -vsv.inertias.m_3 * vsv.gravity
+    weight = np.zeros(layout.N_ROWS)
+    weight[layout.O1_Z] = -vsv.inertias.m_1 * vsv.gravity
+    weight[layout.O2_Z] = -vsv.inertias.m_2 * vsv.gravity
+    weight[layout.O3_Z] = -vsv.inertias.m_3 * vsv.gravity
     return weight
 
 
