@@ -93,6 +93,9 @@ def find_equilibria(
     if equilibria.jumps:
         words = "shafts were put into equilibrium without friction on their ways from the position before"
         notes.append(f"at {equilibria.jumps} positions {words}: hysteresis may jump there")
+    if equilibria.blunt:
+        words = "shafts that walk balance with friction that turns less sharply than elsewhere"
+        notes.append(f"at {equilibria.blunt} positions {words}")
     return replace(found, notes=tuple(notes) if found.t.size else ())
 
 
@@ -164,6 +167,8 @@ class Equilibria:
         Largest load so far that does not balance, over all loads.
     jumps
         Number of positions so far where no equilibrium near the last one was found, with friction on the way.
+    blunt
+        Number of positions so far that are in equilibrium with larger slip velocities only.
     MUST_REST
         Whether ideal joints must be at rest, too.
     """
@@ -179,7 +184,7 @@ class Equilibria:
         self._ways: list[FloatArray] = []
         run = assembly.model.case.run
         asks = assembly.model.case.friction.rest or run.directions == "both"
-        self._walks, self.jumps = asks and run.analysis == "static", 0
+        self._walks, self.jumps, self.blunt = asks and run.analysis == "static", 0, 0
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank, self.slip = counterpart.independence()[0], _CREEP * _fastest(self._ideal, counterpart.size)
         self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
@@ -198,6 +203,7 @@ class Equilibria:
             self._loads.at(t, start.ravel(), direction, equations, marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
                 self.jumps += self._walks and not walks
+                self.blunt += self._loads.bluntness > 1.0
                 self._require_balance(number)
                 self._remember(ideal)
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
