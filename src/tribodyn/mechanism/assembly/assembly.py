@@ -12,7 +12,7 @@ from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
-from tribodyn.mechanism.assembly.closing import CLOSED, System
+from tribodyn.mechanism.assembly.closing import CLOSED, SIZE, System
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT
 from tribodyn.mechanism.assembly.misfit import Misfit
 from tribodyn.mechanism.assembly.odd_axes import odd_axes
@@ -91,7 +91,7 @@ class Assembly:
     def notes(self) -> tuple[str, ...]:
         """Return that bodies do not start where the model has them."""
         farthest = int(np.argmax(self.moved))
-        if self.moved[farthest] <= CLOSED * float(self.data.parts.constants.extent):
+        if self.moved[farthest] <= CLOSED * SIZE:
             return ()
         body = self.model.bodies[farthest]
         return (f"assembly moved {body} by {self.moved[farthest] * 1e3:.4g} mm to close the joints",)

@@ -27,6 +27,8 @@ from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.model.drives_and_loads import GIVEN
 
+#: What tolerances take for the size of a mechanism [m]; where joints close it counts as much as a radian.
+SIZE: Final = 1.0
 CLOSED: Final = 1.0e-12  #: Residual, in units of the mechanism's size or in radians, of a joint that closes.
 CLOSES: Final = 1.0e-9  #: The same, of joints of a mechanism on its way.
 _MOST_STEPS: Final = 60
@@ -69,7 +71,7 @@ class System:
         self.parts, self.now, self._blocks = self.data.parts, memory.now, memory.blocks
         self.rows = [(k, m) for k, c in enumerate(self.parts.couplings) for m in range(c.n_rows)]
         self.n = len(model.bodies)
-        self.size = float(self.parts.constants.extent)
+        self.size = SIZE
         self._wait = 0
         self.known_rank: int | None = None
         self._later_legs = [

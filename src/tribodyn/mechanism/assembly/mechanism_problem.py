@@ -16,7 +16,7 @@ from tribodyn.kernels.mechanism.blocks import BLOCK
 from tribodyn.kernels.mechanism.data import CONTACT, N_STATES, ORIENTATION, TURNING, VELOCITY, MechanismData
 from tribodyn.kernels.mechanism.observe import N_BODY, N_COUPLING, N_WHOLE
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
-from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.closing import SIZE, System
 from tribodyn.mechanism.assembly.ordering import n_blocks
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.mechanism_case import MechanismCase
@@ -132,9 +132,9 @@ def length_scale(assembly: Assembly) -> float:
 
     The smallest clearance as drawn; without any the presliding of friction, or a tenth of the mechanism.
     """
-    friction, size = assembly.model.case.friction, float(assembly.data.parts.constants.extent)
+    friction = assembly.model.case.friction
     clearances = [real.shape.clearance for real in assembly.model.clearances.values()]
-    return min(clearances, default=friction.presliding if friction.rest else 0.1 * size)
+    return min(clearances, default=friction.presliding if friction.rest else 0.1 * SIZE)
 
 
 def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
@@ -147,7 +147,7 @@ def least_energy(assembly: Assembly, forces: FloatArray, rtol: float) -> float:
 
 def _scales(assembly: Assembly, duration: float) -> FloatArray:
     """Return the scales of positions, orientations, velocities and angular velocities, shape (4,)."""
-    size, length = float(assembly.data.parts.constants.extent), length_scale(assembly)
+    size, length = SIZE, length_scale(assembly)
     state, slowest = assembly.state.reshape(-1, N_STATES), size / duration
     falling = float(np.sqrt(dense.norm(assembly.model.case.gravity) * size))
     speed = max(_fastest(state[:, VELOCITY:TURNING], state[:, TURNING:], size), falling, slowest)
