@@ -151,9 +151,8 @@ def _scales(assembly: Assembly, duration: float) -> FloatArray:
     state, slowest = assembly.state.reshape(-1, N_STATES), size / duration
     falling = float(np.sqrt(dense.norm(assembly.model.case.gravity) * size))
     speed = max(_fastest(state[:, VELOCITY:TURNING], state[:, TURNING:], size), falling, slowest)
-    if (
-        speed == slowest and not assembly.model.case.friction.rest
-    ):  # what holds at rest begins to slide slowly
+    # What friction holds at rest begins to slide slowly, whatever drives give.
+    if speed == slowest and not assembly.model.case.friction.rest:
         speed = max(speed, _driven(assembly, duration, size))
     return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])
 
