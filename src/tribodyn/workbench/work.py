@@ -112,7 +112,7 @@ def report(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop)
 def distribution(case: Case, order: Mapping[str, Any], progress: Progress, stop: Stop) -> bytes:
     """Return histograms of builds, drawn from copies of a case, as SVG.
 
-    Raises Interrupted if ``stop`` was true before the end; else as :func:`tribodyn.studies.builds.builds`.
+    Raises TribodynError, as :func:`tribodyn.studies.builds.builds`, also if ``stop`` was true before the end.
     """
     from io import BytesIO
 

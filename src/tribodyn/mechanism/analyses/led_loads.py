@@ -68,7 +68,7 @@ class LedLoads(JointLoads):
         super().__init__(assembly, ideal, over_loads=True)
         self.data = developed(self.data, assembly.model, slip)
         self._slips_given = self.data.contact.surfaces["slip_velocity"].copy()
-        self._direction = self.bluntness = 1.0  # the latter: a multiple of slip velocities
+        self._direction = 1.0
         self._centred: LinearEquations | None = None
         self._walked: Callable[[FloatArray], FloatArray] | None = None
         self._led: FloatArray | None = None
@@ -95,7 +95,6 @@ class LedLoads(JointLoads):
                 now.couplings["angle_mark"] = marks
         self.state[:], self._direction, self.largest = state, direction, 0.0
         self.data.contact.surfaces["slip_velocity"] = self._slips_given
-        self.bluntness = 1.0
         self._centred, self.waits = centred, centred is not None
 
     def walk(
@@ -114,7 +113,11 @@ class LedLoads(JointLoads):
         """Put the bodies back, and develop friction at a multiple of its slip velocities."""
         super().restore(kept, factor)
         self.data.contact.surfaces["slip_velocity"] = factor * self._slips_given
-        self.bluntness = factor
+
+    @property
+    def blunt(self) -> bool:
+        """Whether friction is developed at larger slip velocities than given."""
+        return not np.array_equal(self.data.contact.surfaces["slip_velocity"], self._slips_given)
 
     def walking(self) -> FloatArray:
         """Return the state with the velocities by which shafts slip, shape (13 n,)."""

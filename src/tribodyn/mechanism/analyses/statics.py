@@ -203,7 +203,7 @@ class Equilibria:
             self._loads.at(t, start.ravel(), direction, equations, marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
                 self.jumps += self._walks and not walks
-                self.blunt += self._loads.bluntness > 1.0
+                self.blunt += self._loads.blunt
                 self._require_balance(number)
                 self._remember(ideal)
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
