@@ -18,7 +18,7 @@ from tribodyn.figures import style
 from tribodyn.figures.chart import Family
 from tribodyn.figures.style import GREY, SMALL, TEXT, caption, colour_bar, note, sheet
 from tribodyn.views.bushing import WALL, Unrolled, unrolled
-from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
+from tribodyn.views.bushing_sections import Orbit, OrbitPath, OrbitView
 from tribodyn.views.playback import series, signed
 from tribodyn.views.wear import WORN, fitting_unit
 

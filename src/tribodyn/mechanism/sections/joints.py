@@ -14,9 +14,9 @@ from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections.charts import Shafts
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.views.bushing import Unrolled, best_cut, shares
+from tribodyn.views.bushing_sections import Orbit, OrbitPath, OrbitView
 from tribodyn.views.charts import LOOKS, ChartCurve, Panel, over, over_time
 from tribodyn.views.numbers import fitting
-from tribodyn.views.orbits import Orbit, OrbitPath, OrbitView
 from tribodyn.views.playback import peak, playback_times
 from tribodyn.views.section import Payload, Section, choice
 from tribodyn.views.wear import WORN, fitting_unit
