@@ -21,9 +21,9 @@ from typing import Any, Final
 from llvmlite import binding as llvm
 
 from mebdf.compiled import build, jit, make
-from mebdf.compiled.build import PLATFORMS
 from mebdf.compiled.kernel import entries
 from mebdf.compiled.library import MANIFEST, fingerprint, level, system
+from mebdf.compiled.platforms import PLATFORMS
 from tribodyn.kernels.jit import SOURCES
 
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "llvm_options.csv"

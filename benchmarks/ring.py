@@ -63,7 +63,7 @@ def one(n: int, levers: str, cycles: float) -> dict[str, dict[str, float]]:
     parts = Parts()
     with parts.part("imports"):
         import tribodyn as td
-        from tribodyn.core.platforms import one_thread
+        from tribodyn.core.environment import one_thread
         from tribodyn.mechanisms.catalogue import MECHANISMS
         from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart
         from tribodyn.mechanisms.results import summarise

@@ -5,7 +5,7 @@ import sys
 from typing import Final
 
 from tribodyn.cli.interrupt import hear_signals_to_the_end
-from tribodyn.core.platforms import ignore_settings
+from tribodyn.core.environment import ignore_settings
 
 #: New objects between two searches for unreachable ones; by Python's 700 they take a tenth of a short run.
 _FEW_SEARCHES: Final = 100_000

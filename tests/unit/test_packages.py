@@ -106,7 +106,7 @@ def test_all_files_name_one_version() -> None:
 
 
 def test_a_release_builds_for_every_system_that_has_a_library() -> None:
-    from mebdf.compiled.build import PLATFORMS
+    from mebdf.compiled.platforms import PLATFORMS
 
     steps = (ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8")
     assert f"for system in {' '.join(PLATFORMS)}; do" in steps

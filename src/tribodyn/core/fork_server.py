@@ -36,7 +36,7 @@ ENVIRONMENT: Final = {
     )
 } | {"MALLOC_MMAP_THRESHOLD_": str(32 << 20), "MALLOC_TRIM_THRESHOLD_": str(64 << 20)}
 #: Modules that the server imports: names, for they are of higher layers. The first one ignores settings.
-_MODULES: Final = ("tribodyn.__main__", "tribodyn.studies.work")
+_MODULES: Final = ("tribodyn.__main__", "tribodyn.studies.template")
 _CASE: Final = "TRIBODYN_FORK_SERVER_CASE"  #: Environment variable with what :func:`start` is given, as JSON.
 #: Length that fits into an environment variable of Linux. For a longer case the server prepares nothing.
 _LONGEST: Final = 100_000

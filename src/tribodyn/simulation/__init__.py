@@ -12,8 +12,8 @@ from tribodyn.cases.case import Case
 from tribodyn.cases.groups import Contact
 from tribodyn.cases.loads import Controlled, OwnFunction, with_functions
 from tribodyn.contact import OwnLaw, law_of_user
+from tribodyn.core.environment import one_thread
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.platforms import one_thread
 from tribodyn.core.problem import asked
 from tribodyn.integrate import INTERRUPTED
 from tribodyn.mechanisms.catalogue import MECHANISMS, AnyCase, case_of

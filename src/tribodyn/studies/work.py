@@ -1,24 +1,18 @@
 """Work of every runner: some points, from a case and its changes to numbers and bytes.
 
 It writes no file but the whole result, where it is given a folder for that.
-
-The fork server imports this module, which is when it prepares itself. So does a worker that takes the place
-of one that died begin at once.
 """
 
 import contextlib
-import gc
 import os
-import signal
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 from tribodyn.cases import Case
 from tribodyn.core.errors import TribodynError
-from tribodyn.core.fork_server import take_case
 from tribodyn.core.platforms import unexpected, version
 from tribodyn.results.summary import Summary
 from tribodyn.studies.plan import Point
@@ -187,17 +181,3 @@ def stop_while_preparing(job: SweepJob) -> Callable[[], bool]:
         return job.stop()
 
     return stop
-
-
-def _prepare(given: Mapping[str, Any]) -> None:
-    """Import and load what workers need, in the process they are forked from."""
-    # Ctrl-C is for the command, which ends its workers.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    load(**given)
-    # Objects that live for ever need not be searched for garbage in every worker.
-    gc.freeze()
-
-
-if given := take_case():
-    _prepare(given)

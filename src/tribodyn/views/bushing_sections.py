@@ -1,10 +1,8 @@
 """Charts and sections of any shaft in a bushing: forces, tilt, pressure on the unrolled bushing, path."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -17,11 +15,8 @@ from tribodyn.views.encode import packed, stepped
 from tribodyn.views.playback import LINE_ERROR, dense_times, peak, playback_times, series, signed
 from tribodyn.views.section import Payload, Section, choice
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 #: Looks of points in one circle; top, middle and bottom of a shaft.
-LOOKS: Final = (
+_LOOKS: Final = (
     {"colour": "blue", "dash": "solid", "symbol": "circle"},
     {"colour": "ink", "dash": "dot", "symbol": "diamond"},
     {"colour": "vermilion", "dash": "dash", "symbol": "square"},
@@ -63,7 +58,7 @@ class Orbit:
             "corners": self.corners,
             "reach": self.reach,
             "joined": len(self.tracks) > 1,
-            "looks": LOOKS[: len(self.tracks)],
+            "looks": _LOOKS[: len(self.tracks)],
             "places": [track.name for track in self.tracks],
             "paths": [
                 dict(zip("xy", (stepped(x, fine) for x in one.path.T), strict=True)) for one in self.tracks

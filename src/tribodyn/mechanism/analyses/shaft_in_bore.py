@@ -31,7 +31,7 @@ from tribodyn.lubrication.oil_film import Film
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of, clearances_of
 from tribodyn.mechanism.frames import GROUND, frame
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanisms.shaft_loads import damped_newton
+from tribodyn.mechanisms.balance import damped_newton
 
 _START_DEPTHS: Final = (2.0, 1.0, 3.0, 0.0)  #: Separations over σ tried for the first guess.
 

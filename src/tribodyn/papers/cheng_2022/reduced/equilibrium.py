@@ -15,7 +15,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
 from tribodyn.kernels.vsv.data import VsvData, VsvMemory
 from tribodyn.kernels.vsv.functions import kinetostatic_residual
-from tribodyn.mechanisms.shaft_loads import damped_newton
+from tribodyn.mechanisms.balance import damped_newton
 
 #: Vane speed [rad/s] at which the traction is saturated for any slip velocity that makes sense.
 FULLY_SLIDING: Final = 1.0e3
