@@ -18,6 +18,7 @@ from tribodyn.results.reading import column
 
 PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
 FRICTION = 0.2
+TURN = 12  #: Positions of a turn.
 SIDE = 0.2e-3  #: Difference of two clearances [m]: roughness, which holds pins apart, is some micrometres.
 
 
@@ -29,7 +30,7 @@ def static(mechanism: td.Mechanism, **run: object) -> xr.Dataset:
 def wrist(radial: str) -> xr.Dataset:
     """Return the equilibria of the press in both directions, by the ideal angle of the crank."""
     drawn = press(radial=radial, friction_coefficient=str(FRICTION), **PIN)
-    return static(drawn, directions="both", positions=36)
+    return static(drawn, directions="both", positions=TURN)
 
 
 def test_error_of_a_slider_for_one_clearance_in_both_directions() -> None:
@@ -37,10 +38,10 @@ def test_error_of_a_slider_for_one_clearance_in_both_directions() -> None:
     # where the normal stands at the angle of friction to that force. Two clearances differ by 0.2 mm of it.
     narrow, wide = wrist("0.2 mm"), wrist("0.4 mm")
     angle = of(narrow, "output_ideal", "turn")
-    assert angle[36] == pytest.approx(2.0 * np.pi)
+    assert angle[TURN] == pytest.approx(2.0 * np.pi)
     assert angle == pytest.approx(angle[::-1], abs=1e-9)
     _, _, lean = closed_form(narrow)
-    lean = np.where(np.arange(73) > 36, lean[::-1], lean)
+    lean = np.where(np.arange(2 * TURN + 1) > TURN, lean[::-1], lean)
     friction, radius = math.atan(FRICTION), 9.5e-3
     off = friction - math.asin(radius * math.sin(friction) / ROD)
     way, tilt = (
@@ -49,7 +50,7 @@ def test_error_of_a_slider_for_one_clearance_in_both_directions() -> None:
     clear = np.abs(np.cos(angle)) > 0.2  # at the dead centres of the rod's rotation slip changes its sign
     assert way[clear] == pytest.approx((-SIDE * math.cos(off) / np.cos(lean))[clear], rel=0.01)
     # Across the rod the pin stands on one side as the crank turns forward, on the other as it turns back.
-    sliding = np.where(np.arange(73) > 36, -1.0, 1.0) * np.sign(np.cos(angle))
+    sliding = np.where(np.arange(2 * TURN + 1) > TURN, -1.0, 1.0) * np.sign(np.cos(angle))
     across = -tilt * ROD * np.cos(lean)
     along, expected = SIDE * math.cos(off), SIDE * math.sin(off) * sliding
     height = -along * np.sin(lean) + expected * np.cos(lean)
@@ -230,7 +231,7 @@ def test_an_overloaded_joint_has_no_equilibrium() -> None:
 
 def test_bodies_carry_where_asperities_end() -> None:
     smooth = {f"surfaces.{body}.roughness": "0.05 um" for body in ("trunnion", "bushing")}
-    loaded = {"loads.push.force.value": "1e4 N", "run.analysis": "static"}
+    loaded = {"loads.push.force.value": "1e4 N", "run.analysis": "static", "run.positions": "8"}
     drawn = press(radial="20 um", **PIN).case().replace(loaded | smooth)
     key = "joints.wrist.clearance.bulk"
     assert "closer than the contact law" in td.simulate(drawn.replace({key: "none"})).attrs["failure"]
@@ -389,7 +390,7 @@ def test_superposition_shows_tilt_and_friction() -> None:
 
 def test_shafts_whose_force_passes_through_zero_change_sides() -> None:
     # The ring guide of the vane mechanism alone: at 17.9° its load vanishes, and it lies anywhere between.
-    case = td.load_case("vsv-joints", {"run.analysis": "static"})
+    case = td.load_case("vsv-joints", {"run.analysis": "static", "run.positions": "20"})
     ideal = {f"joints.{name}.clearance.ideal": "true" for name in case.joints if name != "guide"}
     result = td.simulate(case.replace(ideal))
     assert result.attrs["failure"] == ""
