@@ -16,7 +16,7 @@ from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint
 from tribodyn.cases.keys import Key, Value, keys_of
 from tribodyn.cases.materials import MATERIAL, MATERIALS, SURFACES, Property, taken, warmth, written
 from tribodyn.cases.messages import Remarks
-from tribodyn.cases.tables import keys_in, value_at
+from tribodyn.cases.tables import keys_at, keys_in, value_at
 from tribodyn.cases.temperature import Temperature
 from tribodyn.cases.units import RZ_OVER_RA
 
@@ -172,7 +172,7 @@ def wear_scatter(case: Case, prefix: str = "") -> tuple[float, float]:
     name, rate = case.at(f"{prefix}surfaces.bushing.{MATERIAL}"), f"{prefix}{_WEAR}"
     at = value_at(case, rate)
     # A case that is read back has its defaults written down.
-    given = None if at == keys_in(case)[rate].default else case.given(rate)
+    given = None if at == keys_at(type(case), [rate])[rate].default else case.given(rate)
     return materials.wear_scatter(given, None if name is None else str(name), at)
 
 

@@ -35,6 +35,15 @@ def _product(parts: Parts, now: Now, k: int, m: int, other: int, n: int) -> floa
 
 
 @kernel
+def _meet(parts: Parts, k: int, other: int) -> bool:
+    """Return whether two couplings share a body; those of several legs may."""
+    a, b, ground = parts.couplings[k], parts.couplings[other], parts.bodies.size
+    legs = a.next_leg != NONE or b.next_leg != NONE
+    socket = a.socket != ground and (a.socket == b.socket or a.socket == b.shaft)
+    return legs or socket or (a.shaft != ground and (a.shaft == b.socket or a.shaft == b.shaft))
+
+
+@kernel
 def _of_couplings(parts: Parts, now: Now, k: int, m: int, other: int, n: int) -> float:
     """Return the block of a row of one coupling and a row of another."""
     total = 0.0
@@ -68,10 +77,13 @@ def choose_rows(parts: Parts, now: Now, matrix: FloatMatrix) -> None:
     ``matrix`` (n_rows, n_rows) is work space. Most of its entries are zero: few rows share bodies.
     """
     n = matrix.shape[0]
+    matrix[:] = 0.0
     for k in range(parts.couplings.size):
-        for m in range(parts.couplings[k].n_rows):
-            row = parts.couplings[k].first_row + m
-            for other in range(parts.couplings.size):
+        for other in range(parts.couplings.size):
+            if not _meet(parts, k, other):
+                continue
+            for m in range(parts.couplings[k].n_rows):
+                row = parts.couplings[k].first_row + m
                 for j in range(parts.couplings[other].n_rows):
                     column = parts.couplings[other].first_row + j
                     scale = now.couplings[k].scale[m] * now.couplings[other].scale[j]

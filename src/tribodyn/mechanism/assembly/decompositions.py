@@ -97,14 +97,14 @@ class MultifrontalQR:
         Their entries are zero, not only small, of bodies that do not move.
         """
         unit = np.eye(self.matrix.shape[1])[:, np.concatenate(self._free)]
-        rows = np.ascontiguousarray(self._back(np.zeros((len(self.matrix), unit.shape[1])), unit).T)
-        end = 0
+        rows, end = self._back(np.zeros((len(self.matrix), unit.shape[1])), unit).T.copy(), 0
         for columns in filter(len, self._free):
             begin, end = end, end + len(columns)
-            before, own = rows[:begin], rows[begin:end]
+            own = rows[begin:end]
             for _ in range(2):
-                shares = dense.product(before, own.T) if begin else np.zeros((0, len(own)))
-                own = own - dense.product(shares.T, before)
+                moved = np.flatnonzero(own.any(axis=0))
+                before = rows[np.flatnonzero(rows[:begin, moved].any(axis=1))]  # others move other bodies
+                own = own - dense.product(dense.product(before[:, moved], own[:, moved].T).T, before)
                 lower = dense.cholesky(dense.product(own, own.T))
                 # Turned round it is an upper triangle, which is solved without exchanges: zeros stay zero.
                 own = dense.solve(lower[::-1, ::-1], own[::-1])[::-1]

@@ -30,7 +30,10 @@ def products(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def applied(matrix: FloatArray, vector: FloatArray) -> FloatArray:
-    """Return the product of a small matrix (..., n) and a vector (n,), without a call of a kernel."""
+    """Return the product of a matrix (..., n) and a vector (n,), if small without a call of a kernel."""
+    if matrix.size > _ROOM // 8:
+        whole = matrix.flags.c_contiguous
+        return np.asarray(dense.product(matrix, vector) if whole else dense.product(vector, matrix.T))
     sums = (matrix * vector).cumsum(axis=-1)  # in order, with the bits of the kernel
     return np.asarray(sums[..., -1] + 0.0 if vector.size else matrix.sum(axis=-1))
 
