@@ -10,8 +10,9 @@ PLOTS := $(filter-out docs/plots/demo.py docs/plots/mechanism.py docs/plots/movi
 DRAWN := $(PLOTS:docs/plots/%.py=docs/_build/drawn/%)
 PROGRAM := $(shell find src packages -name '*.py' -o -name '*.toml' -o -name '*.js' -o -name '*.css')
 # One more than there are cores: many tests wait for processes that they watch.
-# With bytecode kept, which containers often switch off: hundreds of processes import the package.
-PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -n 3 --dist worksteal
+# With bytecode kept, which containers often switch off: hundreds of processes import the package. Matrices are
+# small: a second thread for each of them takes time from another test.
+PYTEST := PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 3 --dist worksteal
 NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:

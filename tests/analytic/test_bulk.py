@@ -24,7 +24,7 @@ from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
 
 #: Random mechanisms that end where their asperities do, as long as these stand on rigid bodies.
 STOPPED = (29, 37, 53, 57, 62, 71, 78, 117, 130, 141, 157, 159, 183, 184, 187)
-QUICK = (37, 53)  #: Of which these always run.
+QUICK = (53,)  #: Of which these always run.
 WRIST = "joints.wrist.clearance"
 SMOOTH = {"trunnion": {"roughness": "0.02 um"}, "bushing": {"roughness": "0.02 um", "hardness": "20 GPa"}}
 """Surfaces whose bodies give way by far more than their asperities."""

@@ -51,7 +51,7 @@ def two_cycles(vsv_run):
     return vsv_run("exact", 20e-6, duration=4.0 * math.pi, solver="mebdf")
 
 
-@pytest.mark.parametrize("solver", ["mebdf", "bdf"])
+@pytest.mark.parametrize("solver", ["mebdf", pytest.param("bdf", marks=pytest.mark.long)])
 def test_both_close_over_two_cycles(vsv_run, solver):
     # Measured: 2e-6 and 2e-4 with MEBDF, 3e-8 and 3e-4 with BDF.
     run = vsv_run("exact", 20e-6, duration=4.0 * math.pi, solver=solver)

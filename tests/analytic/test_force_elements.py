@@ -310,7 +310,7 @@ def test_gears_without_play_tend_to_the_exact_ratio_as_their_teeth_get_stiff() -
     assert misses[0] > 50.0 * misses[2]
 
 
-@pytest.mark.parametrize("brake", [1.0, -1.0])
+@pytest.mark.parametrize("brake", [1.0, pytest.param(-1.0, marks=pytest.mark.long)])
 def test_backlash_is_an_error_against_the_gears_without_it(brake: float, tmp_path: Path) -> None:
     # The teeth come to rest on the flank that the brake presses: half of the play, and T / K r², over r.
     drawn = Mechanism("Gears", run={"duration": "0.4 s"})

@@ -69,7 +69,7 @@ def of_guide(result: xr.Dataset, name: str) -> FloatArray:
 @cache
 def static(turned: bool = False) -> xr.Dataset:
     drawn = slider_crank(TURNED if turned else UPRIGHT, BLOCK | {"friction_coefficient": 0.05}, **SMOOTH)
-    return td.simulate(drawn.case().replace({"run.analysis": "static", "run.positions": "16"}))
+    return td.simulate(drawn.case().replace({"run.analysis": "static", "run.positions": "12"}))
 
 
 def test_the_tilt_is_that_of_two_corners() -> None:
@@ -84,7 +84,7 @@ def test_the_tilt_is_that_of_two_corners() -> None:
 def test_the_sequence_of_contacts_over_a_cycle_is_that_of_force_and_moment() -> None:
     """A block lies on a face while the middle of its load is between its ends, else on opposite faces."""
     found = static()
-    kinematic = slider_crank().case().replace({"run.analysis": "kinematic", "run.positions": "16"})
+    kinematic = slider_crank().case().replace({"run.analysis": "kinematic", "run.positions": "12"})
     ideal = td.simulate(kinematic)
     force, moment = (of_guide(ideal, f"reaction_{name}") for name in ("force", "moment"))
     times = found["time"].values
@@ -93,13 +93,13 @@ def test_the_sequence_of_contacts_over_a_cycle_is_that_of_force_and_moment() -> 
         for values in (np.abs(force[:, 0]) * 0.5 * LENGTH, np.abs(moment[:, 1]))
     )
     clear = np.abs(across - about) > 0.05 * np.maximum(across, about)
-    assert np.count_nonzero(clear) > 12
+    assert np.count_nonzero(clear) > 9
     expected, contact = np.where(about > across, TILTED, FACE), of_guide(found, "guide_contact")
     assert set(expected[clear]) == {TILTED, FACE}
     assert ((contact == TILTED) == (expected == TILTED))[clear].all()
     # With its load near an end a face of rough asperities leans by less than these let it.
     assert (contact[about < 0.7 * across] == FACE).all()
-    assert np.count_nonzero(contact == FACE) > 4
+    assert np.count_nonzero(contact == FACE) > 3
 
 
 def test_a_guide_that_is_turned_in_space_does_the_same() -> None:
@@ -143,7 +143,7 @@ def test_errors_by_superposition_are_those_of_smooth_rigid_walls(analysis: str) 
     """On a face the block is off by the play; its end swings by the tilt where it leans on both."""
     drawn = slider_crank().output("middle", "block", along=[0, 1, 0])
     drawn.output("lean", "block", quantity="angle", along=[0, 0, 1])
-    case = drawn.case().replace({"run.analysis": analysis, "run.positions": "16"})
+    case = drawn.case().replace({"run.analysis": analysis, "run.positions": "8"})
     result = td.simulate(
         case
         if analysis == "kinematic"
@@ -207,7 +207,7 @@ def test_a_warm_block_has_the_play_that_its_expansion_leaves() -> None:
 
 def yoke(radial: str = "100 um", **slot: Any) -> td.Mechanism:
     """Return a crank whose pin moves a yoke along x by a slot across; the yoke rubs with 20 N."""
-    drawn = td.Mechanism("Scotch yoke", run={"cycles": 1, "analysis": "static", "positions": 40}, **SMOOTH)
+    drawn = td.Mechanism("Scotch yoke", run={"cycles": 1, "analysis": "static", "positions": 24}, **SMOOTH)
     drawn.body("crank", mass="0.3 kg", centre="0, 0, 0 mm", inertia=SMALL)
     drawn.body("yoke", mass="0.5 kg", centre="60, 0, 0 mm", inertia=SMALL)
     drawn.revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
@@ -231,7 +231,7 @@ def test_a_yoke_lags_by_the_play_of_its_slot_and_loses_twice_that_at_each_revers
 
 
 def test_a_yoke_in_motion_strikes_its_pin_and_keeps_the_energy() -> None:
-    changes = {"run.analysis": "dynamic", "drives.motor.speed.value": "120 rpm"}
+    changes = {"run.analysis": "dynamic", "drives.motor.speed.value": "120 rpm", "run.cycles": 0.6}
     result = td.simulate(yoke().case().replace(changes))
     way = 0.05 * np.cos(4.0 * np.pi * result["time"].values)
     off = result["position"].sel(body="yoke", axis="x").values - 0.01 - way

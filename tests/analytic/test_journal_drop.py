@@ -96,7 +96,9 @@ def test_without_damping_the_speed_comes_back_and_the_energy_is_stored(make: Mak
     assert gained == pytest.approx(0.5 * MASS * speed**2, rel=1e-3)
 
 
-@pytest.mark.parametrize("wanted", [0.3, 0.5, 0.7, 0.9, 0.99])
+@pytest.mark.parametrize(
+    "wanted", [0.3, 0.9, *(pytest.param(wanted, marks=pytest.mark.long) for wanted in (0.5, 0.7, 0.99))]
+)
 @pytest.mark.parametrize("name", ["rsdc", "ke", "linear"])
 def test_calibrated_on_the_plate_is_near_on_the_journal(make: MakeJoint, name: str, wanted: float) -> None:
     joint = make(name, "calibrated", wanted)

@@ -147,7 +147,7 @@ def error(y, drop):
     return min(here, shifted.fun)
 
 
-@pytest.mark.parametrize("rtol", [1e-3, 1e-6])
+@pytest.mark.parametrize("rtol", [1e-3, pytest.param(1e-6, marks=pytest.mark.long)])
 def test_no_drop_is_wrong_and_freezing_the_branch_saves_calls(rtol):
     chosen = list(drops())
     frees = [free(*drop, rtol) for drop in chosen]

@@ -12,7 +12,6 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-pytest.importorskip("ContactMechanics")
 SCRIPT = Path(__file__).parents[2] / "docs" / "plots" / "bem.py"
 #: Pressure over modulus and gradient: real areas of 2.5 % and 22 %. At smaller loads a piece of this size has
 #: so few high summits that the ratio scatters by 20 % from piece to piece; here by 6 % and by 1 %.
@@ -21,6 +20,7 @@ LOADS = np.array([1e-2, 1e-1])
 
 @pytest.fixture(scope="module")
 def bem() -> ModuleType:
+    pytest.importorskip("ContactMechanics")
     spec = importlib.util.spec_from_file_location("bem", SCRIPT)
     module = importlib.util.module_from_spec(spec)
     with warnings.catch_warnings():
@@ -31,7 +31,9 @@ def bem() -> ModuleType:
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-@pytest.mark.parametrize("name", ["few wavelengths", "many wavelengths"])
+@pytest.mark.parametrize(
+    "name", ["few wavelengths", pytest.param("many wavelengths", marks=pytest.mark.long)]
+)
 def test_greenwood_williamson_is_right_while_little_touches(name: str, bem: ModuleType) -> None:
     spectrum = bem.SURFACES[name]
     solution = bem.solve(spectrum, 256, (1, 2))

@@ -106,7 +106,7 @@ def test_without_feedback_jumps_follow_temperatures_as_well() -> None:
     assert run["radial_clearance"].values[0, 0] > 20e-6 + 0.9 * GAIN * 40.0
 
 
-@pytest.mark.parametrize("kind", ["journal", "vane"])
+@pytest.mark.parametrize("kind", [pytest.param("journal", marks=pytest.mark.long), "vane"])
 def test_a_warm_campaign_that_was_stopped_goes_on_to_the_same_bits(kind: str, tmp_path: Path) -> None:
     if kind == "journal":
         case, path, period = journal(), "joints.main.clearance.temperature.", TURN

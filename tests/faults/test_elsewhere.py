@@ -119,6 +119,7 @@ def test_commands_compute_the_same_elsewhere(system, here, tmp_path):
     assert {path for path in written if ".cache" not in path.parts} >= known_files
 
 
+@pytest.mark.long  # `make check` runs it
 @pytest.mark.parametrize("system", ["win32", "darwin"])
 def test_ctrl_c_saves_what_was_computed_elsewhere(system: str, tmp_path: Path) -> None:
     command = ["run", "slider-crank", "--set", "run.cycles=400", "--no-figures", "--no-report", "-o", "long"]
@@ -134,6 +135,7 @@ def test_ctrl_c_saves_what_was_computed_elsewhere(system: str, tmp_path: Path) -
     assert (tmp_path / "long/result.nc").is_file()
 
 
+@pytest.mark.long  # `make check` runs it
 @pytest.mark.parametrize("system", ["win32", "darwin"])
 def test_the_workbench_begins_and_ends_elsewhere(system: str, tmp_path: Path) -> None:
     command = ["workbench", "slider-crank", "--json", "--workers", "1"]

@@ -261,7 +261,10 @@ def assert_honest(seeds: Sequence[int], most: int, ended: float) -> None:
 BETWEEN_STEPS = (1530, 2822, 3310, 7025)
 
 
-@pytest.mark.parametrize("seed", BETWEEN_STEPS)
+@pytest.mark.parametrize(
+    "seed",
+    [pytest.param(seed, marks=pytest.mark.long) if seed in (2822, 3310) else seed for seed in BETWEEN_STEPS],
+)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_a_slip_between_two_steps_takes_shorter_steps(seed):
     case = random_case(seed)

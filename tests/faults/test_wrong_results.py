@@ -20,7 +20,7 @@ from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
-FEW, PARTS, EACH = 8, 10, 200
+FEW, PARTS, EACH = 5, 10, 200
 DRAWN = 0.2  #: Share of the runs whose figures are drawn too, which takes thirty times as long as all else.
 Mutation = Callable[[xr.Dataset, str], xr.Dataset]
 

@@ -52,6 +52,8 @@ def test_the_model_in_exudyn_is_the_same_mechanism() -> None:
 
 #: These take many seconds even so; some compile kernels that the library lacks.
 LASTING = (
+    "builds",
+    "costs",
     "joint_kernel",
     "kinks",
     "long_run",

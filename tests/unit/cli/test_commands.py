@@ -61,7 +61,10 @@ def test_check_puts_contact_laws_together(capsys: pytest.CaptureFixture[str]) ->
     assert "contact.damping_factor: kelvin-voigt is not for a point contact" in capsys.readouterr().err
 
 
-def test_check_takes_the_first_step_when_it_is_asked_to(capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_takes_the_first_step_when_it_is_asked_to(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tribodyn.mechanisms.balance._MAX_ITERATIONS", 400)  # a tenth: nothing is found
     heavy = ["check", "vsv", "--set", "loads.air_force_x=1e9 N"]
     assert main(heavy) == 0
     assert main([*heavy, "--deep"]) == 2

@@ -162,7 +162,7 @@ def test_a_case_whose_repeats_are_given_has_their_interval() -> None:
 def test_sweeps_and_searches_print_intervals(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     common = ["slider-crank", "--set", "run.cycles=1", "--set", "wear.depth_limit=10 um"]
     vary = "joints.wrist.clearance.radial=20 um, 40 um"
-    how = ["--workers", "0", "--summary-only", "--show", "wear_life_cycles"]
+    how = ["--workers", "0", "--summary-only", "--no-figures", "--show", "wear_life_cycles"]
     assert main(["sweep", *common, "--vary", vary, "-o", str(tmp_path / "sweep"), *how]) == 0
     assert len(INTERVAL.findall(capsys.readouterr().out)) >= 2
     points = json.loads((tmp_path / "sweep" / "sweep.json").read_text())["points"]

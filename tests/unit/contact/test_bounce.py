@@ -26,7 +26,9 @@ def test_without_damping_all_comes_back(table_1_pair: SurfacePair, name: str) ->
 
 
 @pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("wanted", ASKED)
+@pytest.mark.parametrize(
+    "wanted", [*ASKED[::2], *(pytest.param(wanted, marks=pytest.mark.long) for wanted in ASKED[1::2])]
+)
 def test_calibrated_returns_what_is_asked(table_1_pair: SurfacePair, name: str, wanted: float) -> None:
     table = tabulate(law(name, table_1_pair, damping_factor="calibrated", restitution=wanted))
     # 1e-3 is asked for; the root is solved to 1e-7.

@@ -18,8 +18,8 @@ SHOWN = re.compile(
 FILE = re.compile(
     r"^[^\n]*`(?P<name>[\w-]+\.toml)`[^\n]*\n\n```toml\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL
 )
-#: Commands that take more than a minute.
-LONG = re.compile(r"allocate .*(wear\.cycles|samples 100)")
+#: Commands that take seconds: ``make check`` runs them, too.
+LONG = re.compile(r"allocate .*(wear\.cycles|samples 100)|find |contributions ")
 EXAMPLES = [
     pytest.param(
         found["command"],

@@ -43,7 +43,10 @@ def runs(make_result):
     return {name: prepare(make_result) for name, prepare in RUNS.items()}
 
 
-@pytest.mark.parametrize("run", RUNS)
+@pytest.mark.parametrize(
+    "run",
+    [pytest.param(run, marks=pytest.mark.long) if run in ("one sample", "all nan") else run for run in RUNS],
+)
 @pytest.mark.parametrize("name", FIGURES)
 def test_every_figure_draws_every_run(name, run, runs):
     figure = FIGURES[name].draw(runs[run])

@@ -86,7 +86,7 @@ def test_bars_are_sorted_and_causes_add_up(causes: tuple[str, ...]) -> None:
         assert ends == pytest.approx([90.0, 30.0, -30.0])
 
 
-@pytest.mark.parametrize("n_jumps", [0, 60])
+@pytest.mark.parametrize("n_jumps", [pytest.param(0, marks=pytest.mark.long), 60])
 def test_every_figure_of_a_campaign_is_drawn_however_far_it_came(n_jumps, make_campaign):
     result = make_campaign(n_jumps)
     for family in FIGURES.values():

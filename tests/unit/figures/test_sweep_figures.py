@@ -49,7 +49,9 @@ def made_up(name: str, lost: str = "none") -> xr.Dataset:
     )
 
 
-@pytest.mark.parametrize("lost", LOST)
+@pytest.mark.parametrize(
+    "lost", ["some", *(pytest.param(lost, marks=pytest.mark.long) for lost in ("none", "all"))]
+)
 @pytest.mark.parametrize("name", SWEEPS)
 def test_every_sweep_is_drawn(name: str, lost: str) -> None:
     dataset = made_up(name, lost)

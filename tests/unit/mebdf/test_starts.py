@@ -39,7 +39,7 @@ CIRCUIT = {"mass": [1.0, 0.0], "breakpoints": [1.0], "rtol": 1e-8, "atol": 1e-10
 @pytest.mark.filterwarnings("ignore:The values at t")
 @pytest.mark.parametrize("current", [0.0, 1.0, 5.0])
 @pytest.mark.parametrize("level", [0.2, 0.5, 2.0])
-@pytest.mark.parametrize("t_eval", [None, [0.0, 0.5, 1.0, 2.0]])
+@pytest.mark.parametrize("t_eval", [None, pytest.param([0.0, 0.5, 1.0, 2.0], marks=pytest.mark.long)])
 def test_events_on_algebraic_values_that_jump(current, level, t_eval):
     for terminal, direction, dense in itertools.product([False, True, 2], [-1, 0, 1], [False, True]):
 
@@ -148,7 +148,9 @@ def test_an_integration_of_index_3_goes_on_at_breakpoints(rtol):
 
 
 @pytest.mark.filterwarnings("ignore:The values at t:UserWarning")
-@pytest.mark.parametrize("rtol", 10.0 ** -np.arange(3.0, 8.0))
+@pytest.mark.parametrize(
+    "rtol", [1e-3, 1e-5, *(pytest.param(rtol, marks=pytest.mark.long) for rtol in (1e-4, 1e-6, 1e-7))]
+)
 def test_values_of_index_3_that_a_run_has_left_are_a_start(rtol):
     # 41 of these 210 were refused, and the values at a terminal event at 5 of 7 tolerances.
     problem = pendulum(3)

@@ -82,13 +82,17 @@ ALL = (
 )
 
 
-@pytest.fixture(scope="module")
-def said(package: Path) -> str:
+@pytest.fixture(
+    scope="module",
+    # Its kernels as Python, which is the same source, or compiled with the solver around them.
+    params=[pytest.param("1", id="plain"), pytest.param("0", id="compiled", marks=pytest.mark.long)],
+)
+def said(request: pytest.FixtureRequest, package: Path) -> str:
     """Return what all commands, given in one process, print."""
     done = subprocess.run(
         [sys.executable, "-c", ALL, json.dumps(COMMANDS)],
         cwd=package,
-        env=os.environ | {"PYTHONPATH": str(package)},
+        env=os.environ | {"PYTHONPATH": str(package), "NUMBA_DISABLE_JIT": request.param},
         capture_output=True,
         text=True,
     )

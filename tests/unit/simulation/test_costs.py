@@ -106,7 +106,11 @@ def test_counts_are_those_of_the_problem(name: str) -> None:
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems count the peak of memory otherwise")
 @pytest.mark.parametrize(
     ("name", "changes"),
-    [("vsv", {"run.output_interval": "0.5 ms"}), ("journal-oil", {}), ("slider-crank", {})],
+    [
+        pytest.param("vsv", {"run.output_interval": "0.5 ms"}, marks=pytest.mark.long),
+        pytest.param("journal-oil", {}, marks=pytest.mark.long),
+        ("slider-crank", {}),
+    ],
 )
 def test_memory_and_steps_of_a_run_are_as_estimated(name: str, changes: Changes) -> None:
     found, case = measured(name, changes), td.load_case(name, changes)
@@ -207,6 +211,7 @@ def processor_time(case: Case) -> float:
     return min(times)
 
 
+@pytest.mark.long
 def test_an_oil_film_takes_a_few_times_the_time_of_a_dry_joint(tmp_path: Path) -> None:
     """The costs page gives the factors; here they hold within 1.7."""
     oiled = Path(str(files("tribodyn.mechanism").joinpath("built_in/slider-crank-oil.toml")))

@@ -178,7 +178,7 @@ guide = { type = "prismatic", between = ["ground", "slider"], point = "0, 150, 0
 def test_optimum_of_machines_is_that_of_a_full_enumeration(model: str, tmp_path: Path) -> None:
     """Inverse dynamics: the moment is nearly linear in the masses, so that a choice has a normal law."""
     case = parse_case(PRESS, "press") if model == "press" else load_case(model)
-    case = case.replace({"run.analysis": "kinematic", "run.positions": 40})
+    case = case.replace({"run.analysis": "kinematic", "run.positions": 10})
     name = "drive_moment_rms_Nm"
 
     def number(path: str, change: float) -> float:
@@ -200,11 +200,11 @@ def test_optimum_of_machines_is_that_of_a_full_enumeration(model: str, tmp_path:
         (cost, -stats.norm.cdf(room / deviation)) for cost, deviation in every if deviation <= deviations[k]
     )
     limit = number(MASSES[0], 0.0) + room
-    found = allocate(case, [f"{name}={float(limit)!r}"], 0.95, costs(tmp_path), samples=60, workers=0)
+    found = allocate(case, [f"{name}={float(limit)!r}"], 0.95, costs(tmp_path), samples=30, workers=0)
     assert found.chosen.cost == cost
     assert found.chosen.probability == pytest.approx(-probable, abs=5e-3)
     chance = found.chosen.probability
-    share, error = found.confirmed.within / 60, np.sqrt(chance * (1.0 - chance) / 60)
+    share, error = found.confirmed.within / 30, np.sqrt(chance * (1.0 - chance) / 30)
     assert abs(share - chance) <= 2.0 * error
 
 

@@ -24,7 +24,6 @@ from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve, read
 TIMES: FloatArray = np.linspace(0.0, 2.0, 40)
 TRUTH = {"joint.clearance": 33e-6, "joint.friction_coefficient": 0.17}
 RANGES = ("joint.clearance=10..60um", "joint.friction_coefficient=0.05..0.3")
-FITS = 100
 
 
 def _model(case: td.studies.sweep.__class__) -> xr.Dataset:
@@ -77,14 +76,16 @@ def _read(path: Path) -> Measured:
     return read(path, _model(_case()))
 
 
-def test_intervals_hold_the_truth_in_90_to_99_of_100_fits(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("fits", "least"), [(40, 34), pytest.param(100, 90, marks=pytest.mark.long)])
+def test_intervals_hold_the_truth_in_19_of_20_fits(fits: int, least: int, tmp_path: Path) -> None:
+    # 95 %, less three deviations of 40 draws, and two of 100.
     held = dict.fromkeys(TRUTH, 0)
-    for seed in range(FITS):
+    for seed in range(fits):
         fit = _fit(_read(_file(tmp_path, "swing", seed)))
         keys = fit_report.fitted_keys(fit, fit.fitted(1), None)
         for key in keys:
             held[key.path] += key.interval[0] <= TRUTH[key.path] <= key.interval[1]
-    assert all(90 <= count <= 99 for count in held.values()), held
+    assert all(least <= count < fits for count in held.values()), held
 
 
 def test_profile_and_covariance_agree_where_the_model_is_nearly_linear(tmp_path: Path) -> None:

@@ -15,7 +15,8 @@ LEAST_JUDGED = 40
 #: Sets of many runs: these tests are long, and ``make check`` runs them.
 SLOW = (
     *("cycloid_reducer_play", "friction_damper_backlash", "journal_stribeck", "oblique_impact"),
-    *("published_statements", "vsv_practice"),
+    *("published_statements", "published_statements_2", "vsv_practice", "journal_peak_pressure", "ball_drop"),
+    *("hip_simulator_wear", "screw_drive_friction"),
 )
 #: A formula check, values of the library, and pull forces whose loads are not known.
 WITHOUT_NULL = ("servo_friction_models", "dry_liners", "vsv_practice")
@@ -48,6 +49,7 @@ def test_every_miss_and_every_large_e_is_explained_and_nothing_else(name: str) -
         assert judged.set.explanation(row) in page
 
 
+@pytest.mark.long
 def test_assumed_inputs_of_the_bearing_only_lower_its_peak() -> None:
     rows = _judged("journal_peak_pressure").outcome.comparisons
     for row in rows:

@@ -86,7 +86,9 @@ def test_of_cases_whose_copies_scatter_a_page_can_save_histograms_of_builds(monk
     monkeypatch.setattr(work, "_COPIES", 9)
     monkeypatch.setattr(work, "_DRAWS", 400)
     text = template("vsv-ring").replace('elastic = "beam"\n', "")
-    origin = Origin(parse_case(text, "ring").replace({"pattern.vanes.count": 3}), "ring")
+    origin = Origin(
+        parse_case(text, "ring").replace({"pattern.vanes.count": 3, "run.duration": "0.4 s"}), "ring"
+    )
     assert "builds.svg" in description(origin)["downloads"]
     assert "builds.svg" not in description(Origin(load_case("vsv"), "vsv"))["downloads"]
     drawn = work.distribution(origin.case, {}, lambda reached: None, lambda: False)

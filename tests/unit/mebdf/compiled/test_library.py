@@ -122,7 +122,10 @@ def test_two_builds_give_the_same_bytes(copy: Path) -> None:
     ("system", "beginning"),
     [
         ("linux-aarch64", b"\x7fELF\2\1\1" + bytes(9) + b"\3\0\xb7\0"),  # a shared object for AArch64
-        ("darwin-arm64", struct.pack("<IIII", 0xFEEDFACF, 0x0100000C, 0, 6)),  # Mach-O, ARM64, a library
+        # Mach-O, ARM64, a library.
+        pytest.param(
+            "darwin-arm64", struct.pack("<IIII", 0xFEEDFACF, 0x0100000C, 0, 6), marks=pytest.mark.long
+        ),
         # Makes a C library for Windows first, which takes long; tools/try-wheel makes that wheel, too.
         pytest.param("win32-AMD64", b"MZ", marks=pytest.mark.long),
     ],
