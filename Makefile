@@ -16,7 +16,7 @@ PYTEST := PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytes
 NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:
-.PHONY: help demo assumptions ready kernels test check check-long test-long golden lint format pages docs bench lock clean
+.PHONY: help demo assumptions ready kernels test check paper wheels check-long test-long golden lint format pages docs bench lock clean
 
 help:
 	@echo "make assumptions the demo, and what assumed numbers do to it, in its report"
@@ -24,6 +24,8 @@ help:
 	@echo "make kernels     compile the kernels, if they were edited"
 	@echo "make test        the whole suite but its longest tests"
 	@echo "make check       what takes longer: types, the paper in full, manual, validation, other systems, the wheels with the README's commands"
+	@echo "make paper       figures and claims of the source paper, and the validation sets; results in out"
+	@echo "make wheels      build and try the wheels, with dependencies at both ends of the declared versions"
 	@echo "make check-long  the seventh of the longest tests that is today's"
 	@echo "make test-long   those too, and numerical tests at ten neighbouring tolerances"
 	@echo "make golden      store key results and messages anew"
@@ -49,12 +51,16 @@ test: ready
 
 # A week of days runs all tests marked long: a seventh each day.
 SEVENTH := $(shell expr $$(date +%s) / 86400 % 7)
-# What is promised and takes longer than tests may.
-check: ready $(VENV)/.docs lint
+# What is promised and takes longer than tests may: two at a time, the longest first.
+check: ready $(VENV)/.docs
+	$(MAKE) --jobs 2 --output-sync=target wheels docs paper lint
+	$(PYTEST) tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py
+
+paper: ready
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
 	$(BIN)/tribodyn validate -o out/validation --quiet
-	$(PYTEST) tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py
-	$(MAKE) docs
+
+wheels: ready
 	tools/try-wheel $(BIN)/python out/wheels
 	tools/try-bounds out/wheels
 

@@ -100,7 +100,7 @@ def test_the_ratio_to_another_program_is_the_stored_one() -> None:
 def test_joints_with_clearance_are_those_listed() -> None:
     from tribodyn.mechanism.joints import JOINTS
 
-    (real,) = re.findall(r"Clearance exists in ([^;]*) joints; all others are ideal", TEXT)
+    (real,) = re.findall(r"Clearance exists in ([^;]*) joints; others have none", TEXT)
     assert set(re.split(", | and ", real)) == {name for name, kind in JOINTS.items() if kind.SHAPE}
 
 
