@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 import xarray as xr
 from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
 from tests.analytic.test_outputs import BAR, CRANK, ROD, closed_form, of, press
 from tests.faults.random_mechanisms import flat_loop
 
 import tribodyn as td
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.kernels.actions import Signals, evaluate
+from tribodyn.mechanism.analyses.statics import _turned
 from tribodyn.mechanisms.results import summarise
 from tribodyn.mechanisms.signal_pieces import Pieces, SignalList, backward
 from tribodyn.results.reading import column
@@ -449,3 +451,18 @@ def test_superposition_has_no_errors_of_velocities() -> None:
         place = result["output"].values.tolist().index(output)
         estimate = column(result, "error_estimate")[:, place, result["joint"].values.tolist().index("wrist")]
         assert np.isfinite(estimate).all() == known, output
+
+
+def test_a_tilted_shaft_that_tilts_on_spins_by_half_of_it() -> None:
+    """Rates of rotations become angular velocities as those of finite rotations do, by differences."""
+    chance, h = np.random.default_rng(7), 1e-6
+    ways, rates = chance.normal(size=(20, 3)), chance.normal(size=(20, 3))
+    ways *= 0.3 / np.linalg.norm(ways, axis=1, keepdims=True)
+
+    def turned(half: np.ndarray) -> Rotation:
+        return Rotation.from_quat(np.hstack([half, np.sqrt(1.0 - np.sum(half**2, axis=1, keepdims=True))]))
+
+    before, after = (turned(0.5 * (ways + side * h * rates)) for side in (-1.0, 1.0))
+    expected = (before.inv() * after).as_rotvec() / (2.0 * h)
+    assert np.allclose(_turned(ways, rates), expected, rtol=0.0, atol=1e-8)
+    assert np.max(np.abs(rates - expected)) > 0.05

@@ -4,13 +4,15 @@ Slider-cranks of random size slide in three joints under stated loads. By virtua
 turning forward is above that turning back by twice the sum of friction forces times sliding distances.
 """
 
+import math
+
 import numpy as np
 import pytest
 
 import tribodyn as td
-from benchmarks.static_machines import SAME, STATIC, loop, swinging
-from mebdf.arrays import FloatArray
-from tribodyn.mechanism.assembly.equilibrium import JointLoads
+from benchmarks.static_machines import SAME, loop
+from tribodyn.mechanism.analyses.led_loads import LedLoads
+from tribodyn.mechanism.assembly import start
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.reading import column
 
@@ -107,7 +109,7 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
     "seeds",
     [
         pytest.param((23,), id="one"),
-        pytest.param((1, 2, 3, 7, 8, 9, 20, 24), id="more", marks=pytest.mark.long),
+        pytest.param((1, 2, 3, 7, 8, 9, 20, 22, 24, 48), id="more", marks=pytest.mark.long),
     ],
 )
 def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seeds):
@@ -118,20 +120,23 @@ def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest
         assert np.mean(differences) < SAME, seed
 
 
-def test_shafts_that_walk_find_where_a_snap_ends_in_few_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A tilted shaft leaves one node of its bore for another, and friction turns within 1e-11 m.
+def test_a_note_says_where_friction_of_shafts_that_walk_turns_less_sharply(monkeypatch) -> None:
+    """Where searches do not end with the sharpest friction, neither at once nor from less sharp ones."""
+    newton = start._newton
 
-    Some 2,800 steps at 401 positions; with friction as sharp as that from the beginning there were 6,800.
-    """
-    steps, stiffness = [], JointLoads.stiffness
+    def dull(loads: LedLoads, *keys: float) -> tuple[int, float, float]:
+        steps, moved, soft = newton(loads, *keys)
+        return steps, moved if loads.blunt or not loads.blurs else math.inf, soft
 
-    def counted(loads: JointLoads) -> tuple[FloatArray, FloatArray]:
-        steps.append(loads.ideal.t)
-        return stiffness(loads)
-
-    monkeypatch.setattr(JointLoads, "stiffness", counted)
-    case = swinging(22).replace(STATIC | {"run.duration": "1.5 s"})
-    result = td.simulate(case)
+    monkeypatch.setattr(start, "_newton", dull)
+    changes = {"run.analysis": "static", "run.directions": "both", "run.positions": "4"}
+    case = td.load_case("four-bar", changes)
+    real = [name for name, joint in case.joints.items() if joint.clearance is not None]
+    result = td.simulate(
+        case.replace({f"joints.{name}.clearance.friction_coefficient": "0.2" for name in real})
+    )
     assert result.attrs["failure"] == ""
-    assert len(steps) < 4000
-    assert any("turns less sharply" in note for note in summarise(result)["notes"])
+    told = [note for note in summarise(result)["notes"] if "turns less sharply" in note]
+    assert told == [
+        "at 8 positions shafts that walk balance with friction that turns less sharply than elsewhere"
+    ]

@@ -14,7 +14,7 @@ friction that points against its whole slip, and does not jump. The path depends
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from itertools import product
+from itertools import pairwise, product
 from typing import ClassVar, Final
 
 import numpy as np
@@ -30,6 +30,7 @@ from tribodyn.mechanism.analyses.led_loads import LedLoads, developed
 from tribodyn.mechanism.analyses.linearised import Linearised
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.mechanism_problem import fastest
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
 from tribodyn.mechanism.assembly.positions import DrivePath, walked
@@ -41,6 +42,7 @@ _SETTLED: Final = 1.0e-5  #: Change of gaps over the roughness that counts as ze
 _CREEP: Final = 1.0e-7  #: Slip velocity at which friction is developed, over the fastest speed of a body.
 #: Change of gaps over the roughness that turns the directions of possible motions by less than rounding.
 _NEAR: Final = 0.1
+_NO_COSINE: Final = 1.0e-6  #: Least square of the cosine of half a rotation.
 
 
 def require_equilibria(assembly: Assembly) -> None:
@@ -81,10 +83,8 @@ def find_equilibria(
     data = developed(problem.data, assembly.model, equilibria.slip)
     still = replace(problem, data=data)
     found = walked(still, path, equilibria, picture_times, progress)
-    words = (
-        f"forces on all bodies balance to {equilibria.unbalance:.1g} of the loads or better at every position"
-    )
-    notes = [words]
+    least = f"{equilibria.unbalance:.1g} of the loads or better"
+    notes = [f"forces on all bodies balance to {least} at every position"]
     if equilibria.middle is not None and assembly.model.case.moves:
         notes.append(
             "freedoms that drives leave rest where loads and springs balance: inertia forces along them, as "
@@ -186,7 +186,9 @@ class Equilibria:
         asks = assembly.model.case.friction.rest or run.directions == "both"
         self._walks, self.jumps, self.blunt = asks and run.analysis == "static", 0, 0
         counterpart = placed(System(assembly.model.counterpart), assembly)
-        rank, self.slip = counterpart.independence()[0], _CREEP * _fastest(self._ideal, counterpart.size)
+        speeds = self._ideal[..., VELOCITY:TURNING], self._ideal[..., TURNING:]
+        rank = counterpart.independence()[0]
+        self.slip = _CREEP * fastest(*speeds, counterpart.size) or math.inf
         self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
         self.middle = Middle(assembly, times) if rank < 6 * len(self._model.bodies) else None
 
@@ -250,16 +252,13 @@ class Equilibria:
 
     def _expected(self) -> list[FloatArray]:
         """Return displacements that the equilibria before suggest, the best first, (n_bodies, 6) each."""
-        if len(self._ways) < 2:
-            return self._ways
-        return [2.0 * self._ways[-1] - self._ways[-2], self._ways[-1]]
+        return [2.0 * last - before for before, last in pairwise(self._ways)] + self._ways[-1:]
 
     def _displaced(self, ideal: FloatArray, ways: FloatArray) -> FloatArray:
         """Return the ideal state, displaced, shape (n_bodies, 13)."""
-        found, half = ideal.copy(), 0.5 * ways[:, 3:]
+        found = ideal.copy()
         found[:, :ORIENTATION] += ways[:, :3]
-        turn = np.hstack([np.sqrt(np.maximum(1.0 - np.sum(half**2, axis=1, keepdims=True), 0.0)), half])
-        found[:, ORIENTATION:VELOCITY] = _after(turn, found[:, ORIENTATION:VELOCITY])
+        found[:, ORIENTATION:VELOCITY] = _after(_turn(ways[:, 3:]), found[:, ORIENTATION:VELOCITY])
         return np.asarray(found)
 
     def _remember(self, ideal: FloatArray) -> None:
@@ -268,8 +267,8 @@ class Equilibria:
 
     def _walk(self, number: int, ideal: FloatArray, *, walks: bool) -> None:
         """Let friction follow the displacements since the last position, too, or the ideal motion alone."""
-        passed = abs(float(np.diff(self._path.of_drives[number - 1 : number + 1]).sum()))
-        if not (walks and self._ways and passed > 0.0 and math.isfinite(self.slip)):
+        span = abs(float(np.diff(self._path.of_drives[number - 1 : number + 1]).sum()))
+        if not (walks and self._ways and span > 0.0 and math.isfinite(self.slip)):
             self._loads.walk(None, 0.0)
             return
         # Two steps back: the rate is then exact to the second order.
@@ -277,12 +276,13 @@ class Equilibria:
         into_bodies = rotations(ideal[:, ORIENTATION:VELOCITY]).inv().as_matrix()
 
         def walked(state: FloatArray) -> FloatArray:
-            ways = _ways(state, ideal) - last
-            ways[:, 3:] = products(into_bodies, ways[:, 3:, None])[..., 0]
-            return ways
+            ways = _ways(state, ideal)
+            passed = ways - last
+            passed[:, 3:] = products(into_bodies, _turned(ways[:, 3:], passed[:, 3:])[..., None])[..., 0]
+            return passed
 
         led = None if self.middle is not None else float(self._path.forward[number]) * ideal[:, VELOCITY:]
-        self._loads.walk(walked, (0.5 + 0.5 * len(self._ways)) / passed, led)
+        self._loads.walk(walked, (0.5 + 0.5 * len(self._ways)) / span, led)
 
     def _require_balance(self, number: int) -> None:
         """Refuse an equilibrium of the clearances alone, where the mechanism as a whole is pushed away."""
@@ -294,9 +294,8 @@ class Equilibria:
 
     def _failure(self, number: int, words: str) -> IntegrationFailure:
         where = where_drives_are(self._loads.ideal)
-        return IntegrationFailure(
-            float(self._path.times[number]), f"with {where}, {words}" if where else words
-        )
+        words = f"with {where}, {words}" if where else words
+        return IntegrationFailure(float(self._path.times[number]), words)
 
 
 def _ways(state: FloatArray, ideal: FloatArray) -> FloatArray:
@@ -311,17 +310,21 @@ def _ways(state: FloatArray, ideal: FloatArray) -> FloatArray:
     return np.hstack([ways, np.where(turn[:, :1] < 0.0, -2.0, 2.0) * turn[:, 1:]])
 
 
+def _turn(rotations: FloatArray) -> FloatArray:
+    """Return the quaternions of rotations as :func:`_ways` gives them, shape (n, 4)."""
+    half = 0.5 * rotations
+    return np.hstack([np.sqrt(np.maximum(1.0 - np.sum(half**2, axis=1, keepdims=True), _NO_COSINE)), half])
+
+
+def _turned(rotations: FloatArray, rates: FloatArray) -> FloatArray:
+    """Return angular velocities in the axes that rotate, from rates of rotations as above, (n, 3) each."""
+    turn = _turn(rotations)
+    along = np.sum(turn[:, 1:] * rates, axis=1, keepdims=True)
+    return _after(turn * (1.0, -1.0, -1.0, -1.0), np.hstack([-along / turn[:, :1], rates]))[:, 1:]
+
+
 def _after(second: FloatArray, first: FloatArray) -> FloatArray:
     """Return the quaternions of rotations after others, shape (n, 4)."""
     (a, b, c, d), (p, q, r, s) = second.T, first.T
     parts = a * p - b * q - c * r - d * s, a * q + b * p + c * s - d * r
     return np.stack([*parts, a * r - b * s + c * p + d * q, a * s + b * r - c * q + d * p], axis=1)
-
-
-def _fastest(states: FloatArray, size: float) -> float:
-    """Return the largest speed of a body at some states, turns times a size [m/s]; infinite at rest."""
-    velocity, spin = states[..., VELOCITY:TURNING], states[..., TURNING:]
-    fastest = max(
-        float(np.max(np.abs(velocity), initial=0.0)), size * float(np.max(np.abs(spin), initial=0.0))
-    )
-    return fastest or math.inf

@@ -244,13 +244,9 @@ class JointLoads:
         if self.adrift.size == 0:
             return None
         loads = self._evaluate(np.zeros_like(self.velocity))
-        pushed = dense.product(
-            self.root,
-            dense.product(self.adrift, dense.product(self.adrift.T, dense.product(self.root, loads))),
-        )
-        if dense.norm(pushed) <= _ADRIFT * dense.norm(
-            dense.product(self.root, dense.product(self.root, loads))
-        ):
+        forced = dense.product(self.root, loads)
+        pushed = dense.product(self.root, dense.product(self.adrift, dense.product(self.adrift.T, forced)))
+        if dense.norm(pushed) <= _ADRIFT * dense.norm(dense.product(self.root, forced)):
             return None
         return int(np.argmax(np.linalg.norm((dense.product(self.root, pushed)).reshape(-1, 6), axis=1)))
 
