@@ -37,7 +37,7 @@ from tribodyn.results.reading import column
 MACHINES: Final = 200
 LIMIT: Final = 2.0  #: Processor time of one run [s].
 #: The same of a run whose loop is compared [s], and keys of static and slow ones.
-SLOW: Final = 25.0
+SLOW: Final = 60.0
 SLOWER: Final = 3.0  #: Factor by which a slow run is slowed down to see whether it has settled.
 SAME: Final = 0.02  #: Difference of widths over their mean size that counts as none.
 STATIC: Final = {"run.analysis": "static", "run.positions": 400, "friction.rest": True}

@@ -108,12 +108,12 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
 @pytest.mark.parametrize(
     "seeds",
     [
-        pytest.param((23,), id="one"),
-        pytest.param((1, 2, 3, 7, 8, 9, 20, 22, 24, 48), id="more", marks=pytest.mark.long),
+        pytest.param((28,), id="one"),
+        pytest.param((1, 2, 3, 7, 8, 9, 20, 22, 23, 24, 36, 48), id="more", marks=pytest.mark.long),
     ],
 )
 def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seeds):
-    """Also while shafts walk from one end of their bores to the other."""
+    """Also while shafts walk from one end of their bores to the other, and where they stop after a snap."""
     for seed in seeds:
         ended, differences = loop(seed)
         assert ended == "complete", seed

@@ -7,7 +7,8 @@ the ideal motion, so positions that are passed in both directions have two equil
 
 Where hysteresis is asked for, each position also follows from those before. Slip is that of the ideal motion
 and of the ways u of the bodies from it, u̇ = (3 u − 4 u₋₁ + u₋₂)/(2 h) with the time h of the drives between
-two positions; by u alone in the first ones. A shaft then walks along its bore as it does in slow motion, by
+two positions; by u and u₋₁ alone in the first ones, and where a body stops that has gone three times as far
+before: the rate would point back. A shaft then walks along its bore as it does in slow motion, by
 friction that points against its whole slip, and does not jump. The path depends on no speed.
 """
 
@@ -23,7 +24,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.bodies import collect
-from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
+from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
 from tribodyn.mechanism.analyses.kinematics import require_closing
 from tribodyn.mechanism.analyses.led_loads import LedLoads, developed
@@ -42,6 +43,8 @@ _SETTLED: Final = 1.0e-5  #: Change of gaps over the roughness that counts as ze
 _CREEP: Final = 1.0e-7  #: Slip velocity at which friction is developed, over the fastest speed of a body.
 #: Change of gaps over the roughness that turns the directions of possible motions by less than rounding.
 _NEAR: Final = 0.1
+#: Square of the way of a body, over that of the one that goes farthest, which counts as none.
+_GOES: Final = 1.0e-4
 _NO_COSINE: Final = 1.0e-6  #: Least square of the cosine of half a rotation.
 
 
@@ -186,9 +189,8 @@ class Equilibria:
         asks = assembly.model.case.friction.rest or run.directions == "both"
         self._walks, self.jumps, self.blunt = asks and run.analysis == "static", 0, 0
         counterpart = placed(System(assembly.model.counterpart), assembly)
-        speeds = self._ideal[..., VELOCITY:TURNING], self._ideal[..., TURNING:]
         rank = counterpart.independence()[0]
-        self.slip = _CREEP * fastest(*speeds, counterpart.size) or math.inf
+        self.slip = _CREEP * fastest(self._ideal[..., VELOCITY:], counterpart.size) or math.inf
         self._loads, self.unbalance = LedLoads(assembly, rank, self.slip), 0.0
         self.middle = Middle(assembly, times) if rank < 6 * len(self._model.bodies) else None
 
@@ -204,20 +206,26 @@ class Equilibria:
             self._walk(number, ideal, walks=walks)
             self._loads.at(t, start.ravel(), direction, equations, marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
+                ways = [*self._ways, _ways(self._loads.state, ideal)]
+                if self._walks and len(ways) > 2 and _stops(ways, self._loads.units.reshape(-1, 6)):
+                    self._ways = self._ways[1:]
+                    return self(number)
                 self.jumps += self._walks and not walks
                 self.blunt += self._loads.blunt
                 self._require_balance(number)
-                self._remember(ideal)
+                self._ways = ways[-2:]
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
                 return self._loads.walking()
         raise self._failure(number, f"no static equilibrium was found: {self._why_not()}")
 
     def _in_the_middle(self, number: int) -> FloatArray:
         """Return the state of the ideal counterpart, freedoms where forces balance, shape (n_bodies, 13)."""
-        ideal: FloatArray = self._ideal[self._require_reached(number)]
+        t, k = float(self._path.of_drives[number]), int(self._where[number])
+        if k >= len(self._ideal):
+            raise IntegrationFailure(float(self._path.times[number]), self._reason)
+        ideal: FloatArray = self._ideal[k]
         if self.middle is None:
             return ideal
-        t = float(self._path.of_drives[number])
         found = self.middle.at(t, ideal, anew=number == 0, must=self.MUST_REST)
         if found is None:
             raise self._no_rest(number)
@@ -243,13 +251,6 @@ class Equilibria:
             )
         return "the search for it did not converge"
 
-    def _require_reached(self, number: int) -> int:
-        """Return the number of the ideal state of a position, if joints close there."""
-        k = int(self._where[number])
-        if k >= len(self._ideal):
-            raise IntegrationFailure(float(self._path.times[number]), self._reason)
-        return k
-
     def _expected(self) -> list[FloatArray]:
         """Return displacements that the equilibria before suggest, the best first, (n_bodies, 6) each."""
         return [2.0 * last - before for before, last in pairwise(self._ways)] + self._ways[-1:]
@@ -260,10 +261,6 @@ class Equilibria:
         found[:, :ORIENTATION] += ways[:, :3]
         found[:, ORIENTATION:VELOCITY] = _after(_turn(ways[:, 3:]), found[:, ORIENTATION:VELOCITY])
         return np.asarray(found)
-
-    def _remember(self, ideal: FloatArray) -> None:
-        """Keep the displacements from the ideal state, shape (n_bodies, 6), with those before."""
-        self._ways = [*self._ways[-1:], _ways(self._loads.state, ideal)]
 
     def _walk(self, number: int, ideal: FloatArray, *, walks: bool) -> None:
         """Let friction follow the displacements since the last position, too, or the ideal motion alone."""
@@ -308,6 +305,13 @@ def _ways(state: FloatArray, ideal: FloatArray) -> FloatArray:
     turn = _after(real[:, ORIENTATION:VELOCITY], before)
     ways = real[:, :ORIENTATION] - ideal[:, :ORIENTATION]
     return np.hstack([ways, np.where(turn[:, :1] < 0.0, -2.0, 2.0) * turn[:, 1:]])
+
+
+def _stops(ways: list[FloatArray], units: FloatArray) -> bool:
+    """Return whether a body went so little farther in the last position that its rate points back."""
+    before, way = np.diff(np.array(ways) / units, axis=0)
+    far = np.sum(before**2, axis=1)
+    return bool(np.any((np.sum(way * (3.0 * way - before), axis=1) < 0.0) & (far > _GOES * np.max(far))))
 
 
 def _turn(rotations: FloatArray) -> FloatArray:

@@ -400,14 +400,12 @@ class JointLoads:
 
     def overlapping(self) -> int | None:
         """Return the first joint whose surfaces overlap further than their contact law reaches."""
-        return next((contact.coupling for contact in self.contacts if self._overlaps(contact)), None)
+        found = (at.coupling for at in self.contacts if np.any(at.gaps(self._place(at)) < at.deepest))
+        return next(found, None)
 
     def lost(self) -> int | None:
         """Return the first joint whose pin has left its bore, or moves along it without end."""
         return next((contact.coupling for contact in self.contacts if self._has_left(contact)), None)
-
-    def _overlaps(self, contact: JointNodes) -> bool:
-        return bool(np.any(contact.gaps(self._place(contact)) < contact.deepest))
 
     def _has_left(self, contact: JointNodes) -> bool:
         """Return whether the shaft of one joint has left its socket."""

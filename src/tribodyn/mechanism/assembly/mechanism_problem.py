@@ -150,17 +150,19 @@ def _scales(assembly: Assembly, duration: float) -> FloatArray:
     size, length = SIZE, length_scale(assembly)
     state, slowest = assembly.state.reshape(-1, N_STATES), size / duration
     falling = float(np.sqrt(dense.norm(assembly.model.case.gravity) * size))
-    speed = max(fastest(state[:, VELOCITY:TURNING], state[:, TURNING:], size), falling, slowest)
+    speed = max(fastest(state[:, VELOCITY:], size), falling, slowest)
     # What friction holds at rest begins to slide slowly, whatever drives give.
     if speed == slowest and not assembly.model.case.friction.rest:
         speed = max(speed, _driven(assembly, duration, size))
     return np.array([length, length / size, 0.1 * speed, 0.1 * speed / size])
 
 
-def fastest(velocity: FloatArray, turning: FloatArray, size: float) -> float:
-    """Return the largest speed of bodies [m/s], from velocities and angular velocities, shape (..., 3)."""
-    speeds, turns = (float(np.max(np.linalg.norm(of, axis=-1), initial=0.0)) for of in (velocity, turning))
-    return max(speeds, size * turns)
+def fastest(velocities: FloatArray, size: float) -> float:
+    """Return the largest speed of bodies [m/s], from velocities and angular velocities, shape (..., 6)."""
+    speed, turning = np.max(
+        np.linalg.norm(velocities.reshape(-1, 2, 3), axis=2), axis=0, initial=0.0
+    ).tolist()
+    return float(max(speed, size * turning))
 
 
 def _driven(assembly: Assembly, duration: float, size: float) -> float:
@@ -176,7 +178,7 @@ def _driven(assembly: Assembly, duration: float, size: float) -> float:
     moments = np.linspace(0.0, min(duration, case.period or duration), _MOMENTS + 1)
     for system.t in moments.tolist():
         system.move_with_drives(1.0)
-        speed = max(speed, fastest(system.now.bodies.v[:-1], system.now.bodies.w[:-1], size))
+        speed = max(speed, fastest(np.hstack([system.now.bodies.v, system.now.bodies.w])[:-1], size))
     mass = sum(body.mass for body in case.bodies.values())
     for drive in case.drives.values():
         coordinate, level = GIVEN[drive.gives]
