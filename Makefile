@@ -54,7 +54,7 @@ SEVENTH := $(shell expr $$(date +%s) / 86400 % 7)
 # What is promised and takes longer than tests may: two at a time, the longest first.
 check: ready $(VENV)/.docs
 	$(MAKE) --jobs 2 --output-sync=target wheels docs paper lint
-	$(PYTEST) tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py
+	$(PYTEST) tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py tests/browser/test_manual.py
 
 paper: ready
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet

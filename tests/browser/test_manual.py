@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Browser, Request
 
 pytest.importorskip("sphinx", reason="the manual needs the extra docs")
+pytestmark = pytest.mark.long  # `make check` runs it
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = ("index", "theory/contact", "guide/materials")

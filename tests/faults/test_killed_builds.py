@@ -6,7 +6,7 @@ from benchmarks.builds import KILLS, killed
 
 
 def test_builds_killed_and_resumed_equal_those_left_alone(tmp_path: Path) -> None:
-    copies = 40
+    copies = 24
     found = killed(copies, tmp_path)
     assert len(found["killed at"]) == KILLS
     assert all(0 < done < copies for done in found["killed at"])

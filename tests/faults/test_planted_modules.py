@@ -29,7 +29,7 @@ NAMES = {*sys.stdlib_module_names, *NEEDED}
 #: Commands that may start helper processes: each is run by itself. The others run one after another.
 HELPED = {"run", "sweep", "find", "workbench", "validate"}
 SHORT = ("vsv", "--set", "run.duration=2 ms", "--set", "run.output_interval=1 ms", "--quiet")
-VARIED = (*SHORT, "--vary", "joint.clearance=20:30:10 um", "--workers", "2", "--summary-only")
+VARIED = (*SHORT, "--vary", "joint.clearance=20:30:10 um", "--workers", "2", "--summary-only", "--no-figures")
 FOUND = (*SHORT, "--vary", "joint.clearance=10..60um", "--until", "vane_angle_error_max_deg=0.03")
 #: Commands that come to their end.
 DONE_BY = {

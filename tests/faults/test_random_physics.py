@@ -303,6 +303,7 @@ def test_mechanisms(seeds: range) -> None:
     assert_sound(MECHANISM, (seed for seed in seeds if seed != PRESSED_IN))
 
 
+@pytest.mark.long
 def test_a_pin_that_is_pressed_deep_into_its_bore_warns_of_energy() -> None:
     found = run(MECHANISM.case(PRESSED_IN))
     assert float(found.attrs["separation_least"]) < -1e-4

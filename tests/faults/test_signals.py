@@ -261,7 +261,7 @@ def disturb(
 
 
 def test_a_run_of_hours_ends_at_once_and_whole(tmp_path: Path) -> None:
-    disturb("endless", LONGEST, random.Random(16), lambda _: None, tmp_path / "here")
+    disturb("endless", 2.5, random.Random(16), lambda _: None, tmp_path / "here")
     assert (tmp_path / "here" / "out" / "report.html").exists()
 
 

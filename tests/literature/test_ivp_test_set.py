@@ -88,6 +88,7 @@ def test_it_costs_what_the_code_of_cash_costs():
             assert all(row[cost] < 1.2 * row[f"{cost}, Cash"] for cost in COSTS), row
 
 
+@pytest.mark.long
 def test_the_nand_gate_reaches_the_digits_that_are_asked_for():
     # Steps that end with stage 1, whose error no test has counted, took 0.4 digits: -0.26. Over 51 tolerances
     # the mean is +0.2, with a scatter of 0.1 between sets of 21.

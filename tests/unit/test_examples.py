@@ -34,7 +34,7 @@ EXAMPLES = {
 def after_the_demo(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder where the demo has been run, shortened."""
     folder = tmp_path_factory.mktemp("guide")
-    demo = [sys.executable, "-m", "tribodyn", "run", "vsv", "-o", "out/demo", "--quiet"]
+    demo = [sys.executable, "-m", "tribodyn", "run", "vsv", "-o", "out/demo", "--quiet", "--no-figures"]
     subprocess.run([*demo, "--set", "run.duration=50 ms"], cwd=folder, check=True)
     return folder
 

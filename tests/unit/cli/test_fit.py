@@ -34,6 +34,8 @@ def test_a_mass_is_found_in_a_motion(data, tmp_path, capsys):
         str(data),
         "--vary",
         "bodies.journal.mass=0.1..0.6 kg",
+        "--starts",
+        "1",
     ]
     assert main([*command, "-o", str(target), "--json", "--quiet"]) == 0
     (key,) = json.loads(capsys.readouterr().out)["keys"]

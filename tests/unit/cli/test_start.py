@@ -92,7 +92,11 @@ def test_the_package_itself_is_light() -> None:
 
 
 @pytest.mark.parametrize(
-    "command", [["run", "vsv"], ["sweep", "vsv", "--vary", "joint.clearance=20 um, 21 um", "--workers", "0"]]
+    "command",
+    [
+        pytest.param(["run", "vsv"], marks=pytest.mark.long),
+        ["sweep", "vsv", "--vary", "joint.clearance=20 um, 21 um", "--workers", "0"],
+    ],
 )
 def test_a_run_imports_no_library_that_only_some_need(command: list[str]) -> None:
     """Those here took a third of a short run's time; counted in modules, not in seconds."""

@@ -143,7 +143,7 @@ def test_a_smooth_trunnion_leaves_nothing_to_run_in_to() -> None:
         td.load_case("vsv").replace({"surfaces.trunnion.roughness": "0 um", "wear.running_in": True})
 
 
-SEEDS = range(24)
+SEEDS = range(12)
 
 
 def varied(lengths: Lengths, seed: int) -> Lengths:
