@@ -74,7 +74,7 @@ def check_reports(found: SurfaceMemory, expected: SurfaceMemory, force: float, m
             assert own["separation_min"] == pytest.approx(other["separation_min"], rel=1e-9, abs=1e-15)
 
 
-@pytest.mark.parametrize("grid", GRIDS)
+@pytest.mark.parametrize("grid", [GRIDS[0], pytest.param(GRIDS[1], marks=pytest.mark.long), GRIDS[2]])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_rings_give_what_their_nodes_give(make_clearance, shape, grid):
     rings = assemble([make_clearance(shape, grid=grid)])

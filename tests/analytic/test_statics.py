@@ -20,7 +20,7 @@ from tribodyn.results.reading import column
 
 PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
 FRICTION = 0.2
-TURN = 12  #: Positions of a turn.
+TURN = 8  #: Positions of a turn.
 SIDE = 0.2e-3  #: Difference of two clearances [m]: roughness, which holds pins apart, is some micrometres.
 
 

@@ -34,7 +34,7 @@ def deepest(result):
     return float(result["wear_depth"].max())
 
 
-@pytest.mark.parametrize("formulation", ["exact", "paper"])
+@pytest.mark.parametrize("formulation", ["exact", pytest.param("paper", marks=pytest.mark.long)])
 def test_the_pressure_falls_as_the_edges_wear_in(formulation):
     result = campaign(mechanism__formulation=formulation)
     pressure = result["wear_pressure_mean"].values

@@ -15,7 +15,7 @@ from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 
-FEW, MANY = 200, 5000  #: Damaged files in ``make test`` and in ``make test-long``.
+FEW, MANY = 60, 5000  #: Damaged files in ``make test`` and in ``make test-long``.
 
 
 TIME_LIMIT = 5.0  #: No file may keep the reader longer than this [s].

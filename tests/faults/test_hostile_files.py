@@ -22,7 +22,7 @@ from tribodyn.core.files import read_regular
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms.catalogue import load_case
 
-FEW, PARTS, EACH = 8, 10, 500
+FEW, PARTS, EACH = 5, 10, 500
 Maker = Callable[[Path, random.Random], None]
 
 

@@ -108,7 +108,10 @@ def test_a_sweep_without_room_on_the_disk_goes_on_when_there_is_some(tmp_path: P
 
 @pytest.mark.parametrize(
     ("limit", "status", "told"),
-    [(20, 2, r"--workers: the limit of open files"), (29, 0, r"\(`ulimit -n`\) allows [12] of 3 workers")],
+    [
+        (20, 2, r"--workers: the limit of open files"),
+        pytest.param(29, 0, r"\(`ulimit -n`\) allows [12] of 3 workers", marks=pytest.mark.long),
+    ],
 )
 def test_a_sweep_short_of_handles_has_fewer_workers_or_says_so(limit, status, told, tmp_path):
     command = [

@@ -131,6 +131,7 @@ def force(disabled: str) -> float:
     return float(done.stdout)
 
 
+@pytest.mark.long
 def test_a_run_without_compilation_is_the_same() -> None:
     # To the rounding of elementary functions, which NumPy evaluates otherwise.
     assert force("1") == pytest.approx(force("0"), rel=1e-9)

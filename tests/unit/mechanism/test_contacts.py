@@ -89,7 +89,16 @@ def test_a_template_says_what_it_is(name: str) -> None:
     assert len(TEMPLATES[name].description.split()) > 5
 
 
-@pytest.mark.parametrize("name", GALLERY)
+@pytest.mark.parametrize(
+    "name",
+    [
+        # The last two are in tests/golden, too.
+        pytest.param(name, marks=pytest.mark.long)
+        if name in ("four-bar-wear", "slider-crank-oil", "vsv-free")
+        else name
+        for name in GALLERY
+    ],
+)
 def test_a_mechanism_of_the_gallery_answers_its_question(name: str, tmp_path: Path) -> None:
     path = tmp_path / f"{name}.toml"
     path.write_text(GALLERY[name].text, encoding="utf-8")

@@ -17,6 +17,7 @@ RING: Final = """
 case = "mechanism"
 run.duration = "1 s"
 run.analysis = "static"
+run.positions = 12
 [bodies.ring]
 mass = "1 kg"
 centre = "0, 40, 0 mm"
