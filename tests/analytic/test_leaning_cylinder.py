@@ -88,7 +88,7 @@ def pressed(
     return size * way, *exact(clearance, size * way, lean, pin_is_longer=pin_is_longer)
 
 
-@pytest.mark.parametrize("pin_is_longer", [True, False])
+@pytest.mark.parametrize("pin_is_longer", [True, pytest.param(False, marks=pytest.mark.long)])
 @pytest.mark.parametrize(("radius", "length", "radial"), SIZES)
 def test_wrench_and_least_gap_are_those_of_exact_geometry(
     radius: float, length: float, radial: float, pin_is_longer: bool, make_clearance: MakeClearance

@@ -15,7 +15,8 @@ RATE = "1e-13 m^2/N"
 
 
 def worn(**changes: str) -> xr.Dataset:
-    case = press(**PIN).case().replace({"wear.specific_wear_rate": RATE, **changes})
+    grid = {"joints.wrist.clearance.nodes_around": 48, "joints.wrist.clearance.nodes_along": 8}
+    case = press(**PIN).case().replace({"wear.specific_wear_rate": RATE, **grid, **changes})
     result = td.simulate(case)
     assert result.attrs["failure"] == ""
     return result

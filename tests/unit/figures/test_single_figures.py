@@ -115,7 +115,10 @@ def drawn(scan: Scan, treatment: Treatment) -> Figure:
     return draw(surface, dependence(surface, scan))
 
 
-@pytest.mark.parametrize("shape", [(96, 128), (2000,), (32, 32), (32,)])
+@pytest.mark.parametrize(
+    "shape",
+    [(96, 128), (2000,), *(pytest.param(shape, marks=pytest.mark.long) for shape in ((32, 32), (32,)))],
+)
 def test_maps_and_profiles_are_drawn(shape: tuple[int, ...], tmp_path: Path) -> None:
     scan = generate(SPECTRUM, shape, 1e-6, 1)
     figure = drawn(Scan(scan.heights, scan.spacing, "a/$cost$_{x}.csv"), Treatment())

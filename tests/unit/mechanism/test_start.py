@@ -152,7 +152,9 @@ WRIST_JOINT = 'type = "revolute"\nbetween = ["rod", "slider"]'
 TYPES = {"faces": "revolute", "sphere": "spherical", "ball": "pin-slot"}
 
 
-@pytest.mark.parametrize("between", ['["rod", "slider"]', '["slider", "rod"]'])
+@pytest.mark.parametrize(
+    "between", ['["rod", "slider"]', pytest.param('["slider", "rod"]', marks=pytest.mark.long)]
+)
 @pytest.mark.parametrize("socket", ["rod", "slider"])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_a_start_is_in_equilibrium_whichever_body_carries_the_bore(shape, socket, between):
