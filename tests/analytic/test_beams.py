@@ -159,6 +159,7 @@ LEVER: Final = """
 case = "mechanism"
 run.duration = "1 s"
 run.analysis = "ANALYSIS"
+run.positions = 2
 [bodies.shaft]
 mass = "0.2 kg"
 centre = "0, 0, 0 mm"

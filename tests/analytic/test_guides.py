@@ -68,7 +68,8 @@ def of_guide(result: xr.Dataset, name: str) -> FloatArray:
 
 @cache
 def static(turned: bool = False) -> xr.Dataset:
-    drawn = slider_crank(TURNED if turned else UPRIGHT, BLOCK | {"friction_coefficient": 0.05}, **SMOOTH)
+    block = BLOCK | {"friction_coefficient": 0.05, "nodes_around": 16, "nodes_along": 48}
+    drawn = slider_crank(TURNED if turned else UPRIGHT, block, **SMOOTH)
     return td.simulate(drawn.case().replace({"run.analysis": "static", "run.positions": "12"}))
 
 

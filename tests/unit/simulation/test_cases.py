@@ -93,7 +93,9 @@ class Caller:
         return len(self.asked) > self.patience
 
 
-@pytest.fixture(scope="module", params=FINE)
+@pytest.fixture(
+    scope="module", params=["vsv", "slider-crank", pytest.param("journal-dry", marks=pytest.mark.long)]
+)
 def case(request: pytest.FixtureRequest) -> Case:
     """Return a case whose equations are loaded."""
     found = td.load_case(request.param).replace(FINE[request.param])
