@@ -13,7 +13,7 @@ from tribodyn.mechanisms.catalogue import parse_case
 from tribodyn.studies import contributions
 from tribodyn.studies.contributions import BENDING
 
-PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
+PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um", "nodes_around": 48, "nodes_along": 8}
 
 
 @pytest.fixture(scope="module")

@@ -10,13 +10,19 @@ from tribodyn.core.errors import TribodynError
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.reading import column
 
-PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um", "radial": "20 um"}
+PIN = {
+    "radius": "9.5 mm",
+    "length": "20 mm",
+    "axial": "50 um",
+    "radial": "20 um",
+    "nodes_around": 48,
+    "nodes_along": 8,
+}
 RATE = "1e-13 m^2/N"
 
 
 def worn(**changes: str) -> xr.Dataset:
-    grid = {"joints.wrist.clearance.nodes_around": 48, "joints.wrist.clearance.nodes_along": 8}
-    case = press(**PIN).case().replace({"wear.specific_wear_rate": RATE, **grid, **changes})
+    case = press(**PIN).case().replace({"wear.specific_wear_rate": RATE, **changes})
     result = td.simulate(case)
     assert result.attrs["failure"] == ""
     return result

@@ -18,7 +18,7 @@ from tribodyn.mechanisms.results import summarise
 from tribodyn.mechanisms.signal_pieces import Pieces, SignalList, backward
 from tribodyn.results.reading import column
 
-PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um"}
+PIN = {"radius": "9.5 mm", "length": "20 mm", "axial": "50 um", "nodes_around": 96, "nodes_along": 4}
 FRICTION = 0.2
 TURN = 8  #: Positions of a turn.
 SIDE = 0.2e-3  #: Difference of two clearances [m]: roughness, which holds pins apart, is some micrometres.
