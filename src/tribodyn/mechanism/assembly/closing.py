@@ -216,12 +216,12 @@ class System:
         """Move the bodies onto the constraints as runs do, from near by; return the gap left.
 
         Where joints stay open, rows that were independent at an earlier position may hardly be: they are
-        chosen anew.
+        chosen anew, many rows only if closing once more does not help.
         """
         n, gap = len(self.rows), math.inf
         some_depend = self.parts.constants.rank < n
         for k in range(_TRIES if some_depend else 1):
-            if some_depend and (self._wait <= 0 or k > 0):
+            if some_depend and (self._wait <= 0 or k > min(n // SMALL, 1)):
                 choose_rows(self.parts, self.now, np.zeros((n, n)))
                 self._wait = 1 + (n // SMALL) ** 3
             solution.close(self.parts, self.now, self.data.signals, self.data.mass, self._blocks, self.t)
