@@ -150,6 +150,7 @@ SIZES = {
     "block": {"clearance": 20e-6, "length": 20e-3},
     "dovetail": {"clearance": 20e-6, "length": 20e-3},
     "slot": {"radius": 6e-3, "clearance": 20e-6, "length": 20e-3},
+    "pads": {"radius": 6e-3, "clearance": 20e-6, "length": 20e-3, "width": 4e-3, "count": 5},
 }
 """Sizes of a clearance joint of each shape [m].
 

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.bushings import joint_jacobian
 from tests.journals import BORE, journal, loads
 
 from mebdf.arrays import FloatArray
 from tribodyn.core.problem import Problem
 from tribodyn.integrate import integrate
-from tribodyn.joints.bushing import joint_jacobian, joint_wrench
+from tribodyn.joints.bushing import joint_wrench
 from tribodyn.kernels.mechanism.data import TURNING
 from tribodyn.mechanism.analyses.shaft_in_bore import equilibrium, journal_of
 from tribodyn.mechanism.mechanism_variables import observed

@@ -7,20 +7,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from tests.bushings import joint_jacobian
 
 from mebdf.arrays import FloatArray
 from tribodyn.contact import RSDC, SurfacePair, law
 from tribodyn.contact.bounce import bounce
 from tribodyn.core.errors import InputError
 from tribodyn.joints import BushingJoint, point_table
-from tribodyn.joints.bushing import (
-    contact_energy,
-    joint_jacobian,
-    joint_report,
-    joint_wrench,
-    new_memory,
-    pose_at,
-)
+from tribodyn.joints.bushing import contact_energy, joint_report, joint_wrench, new_memory, pose_at
 from tribodyn.joints.point_contact import POINT_CONTACTS, johnson, lankarani_nikravesh
 from tribodyn.kernels.joints.bushing import pressure_field, update_entry_velocity
 

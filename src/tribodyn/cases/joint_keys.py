@@ -125,7 +125,7 @@ CONFORMAL, SLEEVE, NOTHING = "conformal", "sleeve", "none"  #: What yields under
 
 
 class PlainJoint(Group):
-    """The clearance joint: a shaft in a bushing."""
+    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
 
     clearance: float = quantity("20 um", "radial clearance c", "paper, sections 4.1 and 5.2", gt=0)
     radius: float = quantity("6 mm", "radius of the trunnion r_j", TABLE_1, gt=0)
@@ -152,6 +152,7 @@ class PlainJoint(Group):
     )
     liner: LinerKeys = LinerKeys()
     form: FormKeys = FormKeys()
+    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
 
     @property
     def may_yield(self) -> bool:

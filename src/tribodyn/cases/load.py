@@ -348,13 +348,8 @@ def _with_quotes(key: str, value: str) -> str:
 def flat(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, object]]:
     """Walk nested tables as (dotted path, value)."""
     for name, value in tables.items():
-        path = prefix + _key_text(name)
+        path = prefix + (name if is_name(name) else shown(name))  # so that dots inside do not mislead
         if isinstance(value, dict) and value:
             yield from flat(value, f"{path}.")
         else:
             yield path, value
-
-
-def _key_text(name: str) -> str:
-    """Return a key as it stands in a file; quoted unless plain, so that dots inside do not mislead."""
-    return name if is_name(name) else shown(name)

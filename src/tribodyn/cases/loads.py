@@ -129,15 +129,6 @@ class BodyLoad(NamedGroup):
                 demand(over in allowed or over == opposed, f"{key}.{over}", words)
 
 
-class ShaftLoad(BodyLoad):
-    """A force and a moment on a shaft that turns about Z and tilts little."""
-
-    def shares(self, key: str) -> tuple[float, ...]:
-        """Return force and moment of one unit under a key; ``moment_y`` is left-handed, as tilts are."""
-        found = super().shares(key)
-        return tuple(-share for share in found) if key == "moment_y" else found
-
-
 #: Takes arrays of times [s] or angles [rad] by their names and returns as many values, SI units.
 OwnFunction = Callable[..., Any]
 

@@ -18,10 +18,10 @@ from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.rings import Rings, with_edges
 from tribodyn.joints.shapes.surface import Points, Surface
 from tribodyn.kernels.jit import new_record
-from tribodyn.kernels.joints.bushing import BushingData, report, wrench, wrench_and_jacobian
+from tribodyn.kernels.joints.bushing import BushingData, report, wrench
 from tribodyn.kernels.joints.memory import JointMemory
 from tribodyn.kernels.joints.memory import new_memory as memory_of_surface
-from tribodyn.kernels.joints.pose import Pose, fill_pose, from_jacobian, from_report, from_wrench
+from tribodyn.kernels.joints.pose import Pose, fill_pose, from_report, from_wrench
 from tribodyn.kernels.joints.quantities import REPORTED
 from tribodyn.kernels.joints.surface.bulk import RING
 from tribodyn.kernels.joints.surface.data import GAP
@@ -207,22 +207,6 @@ def joint_wrench(
     found = memory.scratch.wrench
     wrench(data, memory, pose_at(y, omega=omega, sign=sign), found)
     from_wrench(found, out)
-    return out
-
-
-def joint_jacobian(
-    data: BushingData,
-    y: FloatArray,
-    *,
-    omega: float = 0.0,
-    sign: float = 1.0,
-    entry_velocity: FloatArray | None = None,
-) -> FloatArray:
-    """Return the derivative of :func:`joint_wrench` in the eight states and ω_v, shape (5, 9)."""
-    memory, out = new_memory(data, entry_velocity), np.empty((5, 9))
-    scratch = memory.scratch
-    wrench_and_jacobian(data, memory, pose_at(y, omega=omega, sign=sign), scratch.wrench, scratch.jacobian)
-    from_jacobian(scratch.jacobian, out)
     return out
 
 

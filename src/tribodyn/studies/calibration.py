@@ -13,6 +13,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
 from typing import Final
 
@@ -165,7 +166,8 @@ class Calibration:
         parameters = self.parameters()
         robust = self.values.size - len(parameters) >= _FEW
         loss: least_squares.Loss = "soft_l1" if robust else "linear"
-        best = min((self._from(start, loss) for start in self._screened(starts, loss)), key=_cost)
+        tried = (self._from(start, loss) for start in self._screened(starts, loss))
+        best = min(tried, key=attrgetter("cost"))
         if robust:
             self.noise = self.noise * max(_GAUSSIAN * float(np.median(np.abs(best.residuals))), 1e-12)
         return least_squares.fit(
@@ -273,10 +275,6 @@ class Calibration:
                 )
             self.known[json.dumps(values)] = computed
             self.softer |= {json.dumps(values)} if entry.get("elastic") is True else set()
-
-
-def _cost(found: least_squares.LeastSquares) -> float:
-    return found.cost
 
 
 def _along(found: least_squares.LeastSquares, which: int, place: float) -> dict[str, float]:

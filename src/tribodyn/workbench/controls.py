@@ -118,13 +118,9 @@ def controls(case: Case, patterns: Sequence[str]) -> list[dict[str, Any]]:
     others = [path for path in keys if path not in first]
     lowest = {path: ROUGH_LIMIT * roughness for path, roughness in case.rough_clearances().items()}
     # A length that is swept through zero turns a mechanism over.
-    lowest |= {path: _ABOVE_ZERO for path in keys if path.startswith("parameters.") and _is_above(case, path)}
+    lengths = (path for path in keys if path.startswith("parameters."))
+    lowest |= {path: _ABOVE_ZERO for path in lengths if (_number(case.at(path)) or 0.0) > 0.0}
     return [_control(case, keys[path], path in first, lowest.get(path)) for path in (*first, *others)]
-
-
-def _is_above(case: Case, path: str) -> bool:
-    """Tell whether a key has a number above zero."""
-    return (_number(case.at(path)) or 0.0) > 0.0
 
 
 def _stands(case: Case, path: str) -> bool:

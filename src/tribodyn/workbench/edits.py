@@ -66,11 +66,7 @@ def removable(case: Case) -> tuple[str, ...]:
 
 
 def _is_removable(case: Case, table: str) -> bool:
-    return any(_matches(table, pattern) for pattern in _tables(case))
-
-
-def _matches(path: str, pattern: str) -> bool:
-    return path.count(".") == pattern.count(".") and fnmatchcase(path, pattern)
+    return any(table.count(".") == one.count(".") and fnmatchcase(table, one) for one in _tables(case))
 
 
 def _above(path: str) -> Iterator[str]:

@@ -6,6 +6,7 @@ from typing import Final
 from tribodyn.joints.shapes.cylinder import Cylinder
 from tribodyn.joints.shapes.guide import Guide, Wall
 from tribodyn.joints.shapes.mesh import Mesh
+from tribodyn.joints.shapes.pads import Pads
 from tribodyn.joints.shapes.rings import Annulus
 from tribodyn.joints.shapes.round import Ball, Slot, Sphere
 from tribodyn.joints.shapes.surface import Points, Shape, Surface
@@ -18,6 +19,7 @@ SHAPES: Final[dict[str, Callable[..., Shape]]] = {
     "ball": Ball,
     "mesh": Mesh,
     "guide": Guide,
+    "pads": Pads,
     "slot": Slot,
 }
 
@@ -28,6 +30,7 @@ __all__ = [
     "Cylinder",
     "Guide",
     "Mesh",
+    "Pads",
     "Points",
     "Shape",
     "Slot",

@@ -94,7 +94,7 @@ class Linearised:
         memory.now.couplings["law"]["entry_rate"] = NEVER_ENTERED
         rates, jacobian = np.empty(y.size), np.zeros((y.size, y.size))
         self._functions.jac(t, y, self._data, memory, rates, jacobian)
-        rows = _rows_of_velocity(system.n)
+        rows = [N_STATES * body + entry for body in range(system.n) for entry in range(VELOCITY, N_STATES)]
         motions, momentum = dense.product(root, allowed), np.linalg.solve(root, allowed).T
         accelerations = jacobian[rows]
         return LinearEquations(
@@ -146,11 +146,6 @@ class Linearised:
         collect(self.system.now.bodies, state)
         state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
         return state
-
-
-def _rows_of_velocity(n: int) -> list[int]:
-    """Return the states of n bodies that are velocities, those of each body one after the other."""
-    return [N_STATES * body + entry for body in range(n) for entry in range(VELOCITY, N_STATES)]
 
 
 def _in_states(state: FloatArray, motions: FloatArray) -> FloatArray:

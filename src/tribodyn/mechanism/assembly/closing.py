@@ -300,7 +300,7 @@ class System:
             return []
         starts = [self._value(i) for i in numbers]
         n_steps = 1 + int(max((abs(s) for s in starts), default=0.0) / _LONGEST)
-        drawn = self._drawn_gaps()
+        drawn = np.array([math.dist(*joint.points) for joint in self.model.case.joints.values()])
         kept = pieces.c.copy()
         for step in range(n_steps + 1):
             pieces.c[:] = kept
@@ -312,10 +312,6 @@ class System:
         if gap < CLOSED:
             return []
         return [self.open_joint() if np.max(drawn) < CLOSED * self.size else self._drawn_open(drawn)]
-
-    def _drawn_gaps(self) -> FloatArray:
-        """Return the distances of the two points of each joint in the model [m], shape (n_joints,)."""
-        return np.array([math.dist(*joint.points) for joint in self.model.case.joints.values()])
 
     def _drawn_open(self, gaps: FloatArray) -> ModelError:
         """Return the joint that is open in the model; closing spreads its gap over others."""

@@ -10,7 +10,7 @@ from tribodyn.mechanism.joints.joint_type import JointType
 from tribodyn.mechanism.members import members_of
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape
 
-NAMES: Final = ("cylinder", "round", "mesh", "guide")  #: Modules of this package.
+NAMES: Final = ("cylinder", "round", "mesh", "guide", "pads")  #: Modules of this package.
 
 #: Every shape of a clearance by its name.
 SHAPES: Final[dict[str, ClearanceShape]] = {

@@ -93,14 +93,9 @@ def _speed_near_90(run: xr.Dataset) -> float:
 
 def damping_at_90(trial: Trial) -> Finding:
     """Measure in how many pairs of clearances the wider one has the larger damping force near 90°."""
-    found = np.array([_near_90(run) for run in trial.every_clearance(_FINE)])
+    found = np.array([size(run, "d")[_is_near_90(run)].max() for run in trial.every_clearance(_FINE)])
     pairs = [bool(wide > narrow) for narrow, wide in combinations(found, 2)]
     return Finding(listed(found * 1e3, "mN"), 100.0 * float(np.mean(pairs)))
-
-
-def _near_90(run: xr.Dataset) -> float:
-    """Return the largest damping force near the instant at which the vane passes 90° [N]."""
-    return float(size(run, "d")[_is_near_90(run)].max())
 
 
 def _is_near_90(run: xr.Dataset) -> NDArray[np.bool_]:

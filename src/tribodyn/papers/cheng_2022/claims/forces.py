@@ -234,16 +234,10 @@ def phi_y_by_adjustment(trial: Trial) -> Finding:
     """Measure the time with the sign of φ_y that of the direction, less that with the sign of F_airx."""
     run = smooth(trial.vsv())
     positive = run["phi_y"].values > 0.0
-    shares = [
-        _agreement(time_share(run, positive == cause)) for cause in (forward(run), run["F_airx"].values > 0.0)
-    ]
+    causes = (forward(run), run["F_airx"].values > 0.0)
+    shares = [max(alike, 100.0 - alike) for alike in (time_share(run, positive == cause) for cause in causes)]
     text = f"by the direction in {shares[0]:.3g} % of the time, by the sign of F_airx in {shares[1]:.3g} %"
     return Finding(text, shares[0] - shares[1])
-
-
-def _agreement(share: float) -> float:
-    """Return the share of times at which two signs are alike or opposite, whichever is larger [%]."""
-    return float(np.maximum(share, 100.0 - share))
 
 
 #: Claims on causes.

@@ -6,7 +6,7 @@ from typing import ClassVar, Final, Literal
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.fields import Vector, choice, number, quantity, switch, vector
 from tribodyn.cases.keys import ASSUMED
-from tribodyn.cases.loads import FORCES, ShaftLoad
+from tribodyn.cases.loads import FORCES, BodyLoad
 from tribodyn.cases.signals import AngleTable, PositionTable, SpeedTable
 
 DRIVE: Final = "paper, section 5.1"
@@ -64,7 +64,7 @@ COMPONENTS: Final = {
 }
 
 
-class VaneLoad(ShaftLoad):
+class VaneLoad(BodyLoad):
     """A load on the vane, added to those of the paper."""
 
     SPEED_OF: ClassVar = {}
@@ -104,8 +104,9 @@ class VaneLoad(ShaftLoad):
         self.check_followed(("times", "angles", "speeds"), "a load on the vane follows time or an angle")
 
     def shares(self, key: str) -> tuple[float, ...]:
-        """Return force and moment of one unit under a key; a moment without direction is about Z."""
-        return super().shares("moment_z" if self._is_about_z(key) else key)
+        """Return force and moment of one unit; one without direction is about Z, ``moment_y`` left-handed."""
+        found = super().shares("moment_z" if self._is_about_z(key) else key)
+        return tuple(-share for share in found) if key == "moment_y" else found
 
     def _needs_direction(self, key: str) -> bool:
         return key == "force" or (key == "moment" and not self._is_about_z(key))

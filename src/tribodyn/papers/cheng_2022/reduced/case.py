@@ -10,7 +10,7 @@ from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, tables, text
 from tribodyn.cases.groups import Solver, check_output_interval
-from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint, Wear
+from tribodyn.cases.joint_keys import CONFORMAL, Wear
 from tribodyn.cases.keys import ASSUMED, Value
 from tribodyn.cases.loads import Doors
 from tribodyn.cases.rough import BushingCase
@@ -33,12 +33,6 @@ if TYPE_CHECKING:
 
 TABLE_2 = "paper, Table 2"
 TABLE_3 = "paper, Table 3"
-
-
-class VaneJoint(PlainJoint):
-    """The clearance joint: a trunnion in a bushing, with a thrust collar."""
-
-    collar_radius: float = quantity("12 mm", "radius of the thrust collar r_t", "paper, Table 2", gt=0)
 
 
 class MechanismKeys(Group):
@@ -167,7 +161,6 @@ class VsvCase(BushingCase):
     title: str = text(
         "Variable stator vane mechanism, dry rough trunnion joint", "heading of figures and report"
     )
-    joint: VaneJoint = VaneJoint()
     mechanism: MechanismKeys = MechanismKeys()
     drive: CrankKeys = CrankKeys()
     loads: VsvLoadKeys = VsvLoadKeys()

@@ -112,11 +112,6 @@ def _angle_error(dataset: xr.Dataset) -> FloatArray:
     return np.rad2deg(column(dataset, "theta_v") - column(dataset, "theta_v_ideal"))
 
 
-def _speed_error(dataset: xr.Dataset) -> FloatArray:
-    """Return the vane-speed error [deg/s] over time."""
-    return np.rad2deg(column(dataset, "omega_v") - column(dataset, "omega_v_ideal"))
-
-
 @dataclass(frozen=True)
 class _Peak:
     """A maximum that is given twice, outside the impacts and with them, and the sustained maximum."""
@@ -258,7 +253,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "°/s",
         "Accuracy",
         "How unsteadily the vane turns compared with a tight joint; impacts make most of it.",
-        lambda d: rms(d, _speed_error(d)),
+        lambda d: rms(d, np.rad2deg(column(d, "omega_v") - column(d, "omega_v_ideal"))),
         digits=2,
     ),
     "contact_force_mean_N": KeyResult(

@@ -1,0 +1,70 @@
+"""A ring that turns between pads, such as a unison ring on its casing.
+
+Faces of pads lie on a cylinder about the axis as drawn. Nodes stay on the pads; the ring turns through them.
+Of a tilt φ the second order, ½ R φ², is left out: below a nanometre where it is below 1e-4 at 0.2 m.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mebdf.kernels.elementary import portable
+from tribodyn.core.errors import InputError
+from tribodyn.joints.shapes.mesh import patches
+from tribodyn.joints.shapes.rings import across
+from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
+from tribodyn.kernels.joints.surface.tilt import AXIS
+
+FEWEST_AROUND = 4  #: Nodes along a pad, however short it is.
+
+
+@dataclass(frozen=True)
+class Pads:
+    """Sizes of a ring between equal pads at equal angles [m]."""
+
+    radius: float  #: Of the ring.
+    clearance: float  #: Radial gap at every pad.
+    length: float  #: Of the pads along the axis.
+    width: float  #: Of a pad along the ring.
+    count: int  #: Of the pads.
+    first: float = 0.0  #: Angle of the middle of the first pad from the x axis [rad].
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that make no joint."""
+        check_positive(
+            "ring", radius=self.radius, radial=self.clearance, length=self.length, pad_width=self.width
+        )
+        if self.count * self.width > 2.0 * math.pi * (self.radius + self.clearance) * (1.0 + 1e-9):
+            raise InputError(f"of {self.count} pads leaves no room between them", key="pad_width")
+
+    def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
+        """Return the pads; the nodes around a whole ring are shared out by width."""
+        return tuple(self._pad(k, grid) for k in range(self.count))
+
+    def _pad(self, number: int, grid: tuple[int, int]) -> Surface:
+        bore, middle = self.radius + self.clearance, self.first + 2.0 * math.pi * number / self.count
+        half = 0.5 * self.width / bore
+        n = max(math.ceil(grid[0] * half / math.pi), FEWEST_AROUND)
+        theta, arc = across(middle - half, middle + half, n)
+        z, weight = across(-0.5 * self.length, 0.5 * self.length, grid[1])
+        around = np.column_stack([portable.cos(theta), portable.sin(theta), 0.0 * theta])
+        normal, area = np.tile(around, (z.size, 1)), np.outer(weight, bore * arc).ravel()
+        position = self.radius * normal
+        position[:, 2] = np.repeat(z, theta.size)
+        return Surface(
+            name=f"pad {number + 1}",
+            position=position,
+            normal=normal,
+            area=area,
+            gap=np.full(area.size, self.clearance),
+            rows=patches(position, normal, area),
+            tilt=AXIS,
+            axes={"z": z, "theta": theta},
+            slides=True,
+            size=0.5 * min(self.width, self.length),
+        )
+
+    def points(self) -> Points:
+        """Refuse a point contact."""
+        return no_points("ring between pads")
