@@ -15,6 +15,7 @@ from tribodyn.core.platforms import give_back_memory
 from tribodyn.kernels import dense
 
 _BODY: Final = 6  #: Columns of a body.
+_AT_ONCE: Final = 256  #: Columns of an inverse that are found at once: all of many hundreds take much memory.
 _NOTHING: Final = 1.0e-13  #: Length of what is left of a row or column that counts as nothing.
 #: The same of all that was left out, and what rows miss by in motions that they leave.
 _EXACT: Final = 1.0e-9
@@ -67,10 +68,11 @@ class MultifrontalQR:
             return 0.0, 0.0
         unit = np.eye(len(self.matrix))[:, np.concatenate([front.pivots for front in self._fronts])]
         with np.errstate(all="ignore"):
-            inverse = self._transposed(self._shortest(unit))
-            least = 1.0 / math.sqrt(dense.norm(inverse)) - self._lost
-        sizes = np.abs(self.matrix)
-        return least, math.sqrt(float(np.max(sizes.sum(axis=0)) * np.max(sizes.sum(axis=1))))
+            parts = np.array_split(unit, math.ceil(self.rank / _AT_ONCE), axis=1)
+            sizes = [dense.norm(self._transposed(self._shortest(part))) for part in parts]
+            least = 1.0 / math.sqrt(math.hypot(*sizes)) - self._lost
+        entries = np.abs(self.matrix)
+        return least, math.sqrt(float(np.max(entries.sum(axis=0)) * np.max(entries.sum(axis=1))))
 
     def is_certain(self, least: float) -> bool:
         """Return whether singular values would show the same rank.
