@@ -14,6 +14,7 @@ from tribodyn.workbench.messages import KEPT
 from tribodyn.workbench.page_session import _UNHURRIED as UNHURRIED
 from tribodyn.workbench.server_state import Rules
 from tribodyn.workbench.variant import Origin
+from tribodyn.workbench.worker_pool import Job
 
 CLEARANCE = "joint.clearance"
 
@@ -39,15 +40,35 @@ async def test_the_answer_names_its_values_and_the_command_that_makes_it() -> No
         assert place == [0, 2]
 
 
+class Held(Pretending):
+    """A pool whose runs go on when they are let."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.gate, self.begun = asyncio.Event(), asyncio.Event()
+        self.gate.set()
+
+    async def do(self, job: Job) -> bytes:
+        self.begun.set()
+        await self.gate.wait()
+        return await super().do(job)
+
+
 @in_loop
 async def test_while_a_slider_is_dragged_runs_end_and_the_newest_request_is_next() -> None:
-    pool = Pretending(seconds=0.2)
+    pool = Held()
     async with hosting(pool) as host:
         page = await host.greeted()
         pool.made.clear()
-        for number in range(10):
+        pool.begun.clear()
+        pool.gate.clear()
+        await page.run(0, wide(20))
+        await pool.begun.wait()
+        for number in range(1, 10):
             await page.run(number, wide(20 + number))
-            await asyncio.sleep(0.01)
+        await page.say("no kind of message")  # is answered after all before it were heard
+        await page.until("error")
+        pool.gate.set()
         answers = [await page.picture(), await page.picture()]
         assert [answer.number for answer in answers] == [0, 9]
         assert [answer.header["values"] for answer in answers] == [wide(20), wide(29)]
