@@ -35,6 +35,7 @@ NAMES: Final = (
     "kinks",
     "random_machines",
     "static_machines",
+    "options",
 )
 #: Those that take hours, each a command of its own.
 BY_HAND: Final = ("builds",)

@@ -32,5 +32,31 @@ def costs(found: Found) -> Lines:
         yield row(f"`{name}`", f"{one['cycles']:g}", *counts, *memory, *times)
 
 
+def options(found: Found) -> Lines:
+    """Give what elastic bodies and friction at rest cost."""
+    yield from head("case", "option", "time", "aim", "steps")
+    for one in found["options"]["rows"]:
+        within = one["time"] <= one["aim"]
+        time = f"{one['time']:.2f}" if within else f"**{one['time']:.2f}**"
+        yield row(one["case"], one["option"], time, f"{one['aim']:g}", f"{one['steps']:.2f}")
+
+
+def rings(found: Found) -> Lines:
+    """Give what rings of vanes take over a cycle of the drive."""
+    yield from head("levers", "vanes", "start", "integration", "times real time", "memory", "whole run")
+    for levers in ("rigid", "elastic"):
+        for number, one in found["ring"][levers]["rings"].items():
+            start = sum(one[part]["seconds"] for part in ("case", "assembly", "start"))
+            steps, whole = one["integration"]["seconds"], one["whole"]["seconds"]
+            faster = one["whole"]["simulated [s]"] / steps
+            memory = f"{one['integration']['peak [MB]']:.0f} MB"
+            yield row(levers, number, seconds(start), seconds(steps), f"{faster:.2f}", memory, seconds(whole))
+
+
 #: Tables by name.
-TABLES: Final[dict[str, Table]] = {"coefficients": coefficients, "costs": stored(SOURCE, costs)}
+TABLES: Final[dict[str, Table]] = {
+    "coefficients": coefficients,
+    "costs": stored(SOURCE, costs),
+    "options": stored(SOURCE, options),
+    "rings": stored(SOURCE, rings),
+}

@@ -300,9 +300,10 @@ def test_each_family_is_right(family):
     assert [found for found in errors if found is None or found > 100.0] == []
 
 
-def test_rest_takes_no_more_than_twice_the_calls_of_bdf():
+@pytest.mark.parametrize("number", [20, pytest.param(40, marks=pytest.mark.long)])
+def test_rest_takes_no_more_than_twice_the_calls_of_bdf(number):
     ratios = []
-    for case in random_cases([power_at_rest, tanks], 20):
+    for case in random_cases([power_at_rest, tanks], number):
         (solution, calls), (peer, by_bdf) = run(case), run(case, "BDF")
         assert error(case, solution) <= 100.0
         if (found := error(case, peer)) is not None and found <= 100.0:

@@ -143,7 +143,7 @@ def test_a_smooth_trunnion_leaves_nothing_to_run_in_to() -> None:
         td.load_case("vsv").replace({"surfaces.trunnion.roughness": "0 um", "wear.running_in": True})
 
 
-SEEDS = range(12)
+SEEDS = [*range(12), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(12, 24))]
 
 
 def varied(lengths: Lengths, seed: int) -> Lengths:
@@ -156,8 +156,8 @@ def varied(lengths: Lengths, seed: int) -> Lengths:
 
 
 def test_most_of_these_mechanisms_can_be_assembled(make_vsv):
-    reaches = [reachable(varied(make_vsv().lengths, seed), 0.0, 0.0) for seed in SEEDS]
-    assert sum(reach is not None for reach in reaches) > len(SEEDS) / 2
+    reaches = [reachable(varied(make_vsv().lengths, seed), 0.0, 0.0) for seed in range(12)]
+    assert sum(reach is not None for reach in reaches) > len(reaches) / 2
 
 
 @pytest.mark.parametrize("seed", SEEDS)
