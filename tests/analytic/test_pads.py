@@ -9,6 +9,8 @@ from scipy.spatial.transform import Rotation
 import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.joints.clearances import Clearance, assemble, pose_at
+from tribodyn.joints.point_contact import resting
+from tribodyn.joints.shapes import Pads
 from tribodyn.kernels.joints.surface.joint import wrench_and_jacobian
 from tribodyn.kernels.joints.surface.memory import new_memory
 from tribodyn.results.reading import column
@@ -82,6 +84,20 @@ def test_a_load_on_one_pad_closes_its_gap_and_between_two_that_at_the_near_edges
     edge = math.radians(45.0) - 0.5 * 20.0 / 200.2
     assert places[0] == pytest.approx(PLAY - 0.5 * apart, abs=0.5 * apart)
     assert places[1] == pytest.approx((PLAY - 0.5 * apart) / math.cos(edge), abs=0.5 * apart / math.cos(edge))
+
+
+def test_a_rigid_ring_rests_where_loads_hold_it_and_its_room_ends_there() -> None:
+    shape = Pads(200e-3, PLAY, 10e-3, 20e-3, 4)
+    edge = math.radians(45.0) - 0.5 * 20.0 / 200.2
+    loads = np.array([[1.0, 0.0, 7.0, 0.0, 0.0, 5.0], [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
+    places = resting(shape, loads)
+    assert places[0, 0] == pytest.approx(
+        PLAY / math.cos(0.5 * 20.0 / 200.2), rel=1e-6
+    )  # on the edges of one pad
+    assert places[1, :2] == pytest.approx(np.full(2, PLAY / math.cos(edge) / math.sqrt(2.0)), rel=1e-6)
+    assert places[:, [2, 5]] == pytest.approx(np.zeros((2, 2)))
+    reach = np.linalg.norm(shape.room(), axis=1).reshape(4, 3)
+    assert reach == pytest.approx(np.tile([PLAY, PLAY, PLAY / math.cos(edge)], (4, 1)))
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ def expanded(declared: Mapping[str, Key], paths: Iterable[str]) -> dict[str, Key
         below = [path for path in paths if path.startswith(before)]
         for name in dict.fromkeys(path[len(before) :].partition(".")[0] for path in below):
             if _NAME.fullmatch(name):
-                named = (key.at(_with_name(key.path, name)) for key in keys.values())
+                named = (key.at(key.path.replace(ANY_NAME, name, 1)) for key in keys.values())
                 found |= expanded({key.path: key for key in named}, below)
     return found
 
@@ -201,10 +201,6 @@ def _before_name(path: str) -> str | None:
     """Return the path before the first name that a user chooses; None if there is none."""
     before, name, _ = path.partition(ANY_NAME)
     return before if name else None
-
-
-def _with_name(path: str, name: str) -> str:
-    return path.replace(ANY_NAME, name, 1)
 
 
 def _paths(values: Mapping[str, Any], prefix: str = "") -> Iterator[str]:

@@ -26,7 +26,7 @@ from tribodyn.contact.contact_law import MEMORYLESS, ContactLaw
 from tribodyn.contact.table import table_of_nodes, tabulate
 from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import ContactTable
-from tribodyn.joints.shapes import Guide, Slot
+from tribodyn.joints.shapes import Guide, Pads, Slot
 from tribodyn.joints.shapes.surface import Points
 from tribodyn.kernels.lookup import pressure_and_damping
 
@@ -178,8 +178,8 @@ FlatWalls: TypeAlias = Guide | Slot  #: Shapes with flat walls.
 _FAR: Final = 1.0e3
 
 
-def resting(shape: FlatWalls, loads: FloatArray) -> FloatArray:
-    """Return displacement and rotation of a smooth, rigid shaft that loads hold against flat walls, (n, 6).
+def resting(shape: FlatWalls | Pads, loads: FloatArray) -> FloatArray:
+    """Return displacement and rotation of a smooth, rigid shaft that loads hold against walls, (n, 6).
 
     Loads are forces [N] and moments [N m] about its middle, shape (n, 6); those along the axis do not count.
     It goes as far as the walls let it, and only as far as the loads push it: the point of all allowed ones

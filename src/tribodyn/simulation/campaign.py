@@ -32,16 +32,6 @@ def columns(of_cycle: Iterable[str]) -> tuple[str, ...]:
     return (*CAMPAIGN, *of_cycle)
 
 
-def empty_history(of_cycle: Iterable[str]) -> History:
-    """Return a history of no stops."""
-    return {name: np.empty(0) for name in columns(of_cycle)}
-
-
-def appended(history: Mapping[str, FloatArray], entry: Mapping[str, float]) -> History:
-    """Return the history with one more stop; ``entry`` holds a number for each column."""
-    return {name: np.append(values, entry[name]) for name, values in history.items()}
-
-
 def thinned(cycles: FloatArray, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return worn profiles and their cycles, every second one left out when they are too many.
 
@@ -175,7 +165,7 @@ def _settled(system: Cycles, plan: CampaignPlan) -> tuple[Campaign, Cycle | None
         load=nothing,
         gain=0.0,
         life=math.inf,
-        history=empty_history(plan.of_cycle),
+        history={name: np.empty(0) for name in columns(plan.of_cycle)},
         stage_cycles=np.empty(0),
         stage_depth=np.empty((0, *plan.node_area.shape)),
         statistics=vars(Statistics()),
@@ -262,7 +252,9 @@ def _noted(worn: Campaign, cycle: Cycle, plan: CampaignPlan, jump: int = 0, lost
         "wear_load_change": load_change(cycle.sliding_load, worn.load),
         "wear_energy_lost": lost,
     }
-    return replace(worn, history=appended(worn.history, entry))
+    return replace(
+        worn, history={name: np.append(values, entry[name]) for name, values in worn.history.items()}
+    )
 
 
 def _added(before: dict[str, float], cost: Statistics) -> dict[str, float]:

@@ -134,13 +134,12 @@ def _matching(case: Case, keys: Mapping[str, Key], patterns: Sequence[str]) -> I
     for pattern in patterns:
         for path, key in keys.items():
             fits = path.count(".") == pattern.count(".") and fnmatchcase(path, pattern)
-            if fits and case.at(path) is not None and _has_course(key, case.at(path)):
+            if (
+                fits
+                and (value := case.at(path)) is not None
+                and (key.choices or key.kind == "switch" or track(key, _number(value)) is not None)
+            ):
                 yield path
-
-
-def _has_course(key: Key, value: Value | None) -> bool:
-    """Tell whether a slider or a list can give other values."""
-    return bool(key.choices) or key.kind == "switch" or track(key, _number(value)) is not None
 
 
 def text(key: Key, value: Value | None) -> str:

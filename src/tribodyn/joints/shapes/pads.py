@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
 from tribodyn.joints.shapes.mesh import patches
@@ -38,15 +39,19 @@ class Pads:
         if self.count * self.width > 2.0 * math.pi * (self.radius + self.clearance) * (1.0 + 1e-9):
             raise InputError(f"of {self.count} pads leaves no room between them", key="pad_width")
 
+    @property
+    def edges(self) -> FloatArray:
+        """Angles of both edges of each pad [rad], shape (count, 2)."""
+        middle, half = 2.0 * math.pi * np.arange(self.count) / self.count, 0.5 * self.width
+        return (self.first + middle)[:, None] + half / (self.radius + self.clearance) * np.array([-1.0, 1.0])
+
     def surfaces(self, grid: tuple[int, int]) -> tuple[Surface, ...]:
         """Return the pads; the nodes around a whole ring are shared out by width."""
-        return tuple(self._pad(k, grid) for k in range(self.count))
+        return tuple(self._pad(k, first, last, grid) for k, (first, last) in enumerate(self.edges.tolist()))
 
-    def _pad(self, number: int, grid: tuple[int, int]) -> Surface:
-        bore, middle = self.radius + self.clearance, self.first + 2.0 * math.pi * number / self.count
-        half = 0.5 * self.width / bore
-        n = max(math.ceil(grid[0] * half / math.pi), FEWEST_AROUND)
-        theta, arc = across(middle - half, middle + half, n)
+    def _pad(self, number: int, first: float, last: float, grid: tuple[int, int]) -> Surface:
+        bore, share = self.radius + self.clearance, (last - first) / (2.0 * math.pi)
+        theta, arc = across(first, last, max(math.ceil(grid[0] * share), FEWEST_AROUND))
         z, weight = across(-0.5 * self.length, 0.5 * self.length, grid[1])
         around = np.column_stack([portable.cos(theta), portable.sin(theta), 0.0 * theta])
         normal, area = np.tile(around, (z.size, 1)), np.outer(weight, bore * arc).ravel()
@@ -64,6 +69,20 @@ class Pads:
             slides=True,
             size=0.5 * min(self.width, self.length),
         )
+
+    def corners(self) -> tuple[FloatArray, FloatArray]:
+        """Return the gaps at the corners of all pads (n,), behind their losses as those of a guide."""
+        around = np.column_stack([portable.cos(self.edges.ravel()), portable.sin(self.edges.ravel())])
+        ends = -0.5 * self.length, 0.5 * self.length
+        found = [[x, y, 0.0, -z * y, z * x, 0.0] for z in ends for x, y in around]
+        return np.array(found), np.full(len(found), self.clearance)
+
+    def room(self) -> FloatArray:
+        """Return corners of the area that an upright ring has for its middle [m], shape (3 count, 2)."""
+        edges, open_way = self.edges, math.pi / self.count - 0.5 * float(np.ptp(self.edges[0]))
+        angles = np.column_stack([edges, edges[:, 1] + open_way])
+        reach = self.clearance / np.array([1.0, 1.0, math.cos(open_way)])
+        return np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1).reshape(-1, 2)
 
     def points(self) -> Points:
         """Refuse a point contact."""

@@ -71,11 +71,7 @@ def _axis(place: Place, which: int) -> FloatArray:
     if len(axes) == 1:
         return np.arange(_shape(place)[which], dtype=np.float64)
     # An arc of a ball's race instead of its latitude: rows are then in metres everywhere.
-    return axes[which] * (_radius(place) if names[which] == LATITUDE else 1.0)
-
-
-def _radius(place: Place) -> float:
-    return float(np.linalg.norm(place.surface.position[0]))
+    return axes[which] * (np.linalg.norm(place.surface.position[0]) if names[which] == LATITUDE else 1.0)
 
 
 def _filled(axes: Sequence[FloatArray], n: int) -> FloatArray:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from mebdf.arrays import FloatArray, IntArray
 from tribodyn.joints.point_contact import FlatWalls
+from tribodyn.joints.shapes import Pads
 from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections.charts import Shafts
@@ -124,12 +125,12 @@ def hodographs(dataset: xr.Dataset) -> Payload | None:
 
 
 def room_of(case: MechanismCase | None, joint: int) -> FloatArray:
-    """Return the corners of the room between flat walls over the clearance, (n, 2); none in a bore."""
+    """Return the corners of the room between walls or pads over the clearance, (n, 2); none in a bore."""
     keys = None if case is None else list(case.joints.values())[joint]
     if keys is None or keys.real is None:
         return np.zeros((0, 2))
     shape = SHAPES[keys.shape].of(keys.real, np.asarray)
-    return shape.room() / shape.clearance if isinstance(shape, FlatWalls) else np.zeros((0, 2))
+    return shape.room() / shape.clearance if isinstance(shape, FlatWalls | Pads) else np.zeros((0, 2))
 
 
 def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
@@ -257,7 +258,7 @@ ORBITS: Final = OrbitView(
     title="Shafts in their bores",
     caption=(
         "Seen along the axis of the joint, X and Y are its axes x and y. The circle is the clearance, of a "
-        "guide the area that its walls leave; the mark is the centre of the shaft now, the line its path. "
+        "guide or pads the area they leave; the mark is the centre of the shaft now, the line its path. "
         "Beyond it the mean planes of the surfaces overlap."
     ),
     needs=("displacement", "clearance", "joint", "surface"),
