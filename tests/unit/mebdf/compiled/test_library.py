@@ -17,6 +17,7 @@ from mebdf.compiled import build as libraries_build
 from mebdf.compiled import library as libraries
 from mebdf.compiled import make
 from mebdf.compiled.library import MANIFEST, Library, NoMachineCode, Sources, fingerprint, library
+from mebdf.kernels.jit import SOURCES as SOLVER
 
 KERNELS = """
 from pathlib import Path
@@ -149,6 +150,16 @@ def test_a_wheel_of_the_same_sources_gives_its_library(copy: Path) -> None:
     shutil.rmtree(sources(copy).folder)
     assert make.from_wheel(sources(copy), libraries.system(), copy / "dist")
     assert content(copy) == before
+
+
+def test_sources_that_are_edited_while_they_are_compiled_make_no_library(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = iter(("before", "after"))
+    monkeypatch.setattr(make, "fingerprint", lambda sources: next(found))
+    monkeypatch.setattr(make, "_compiled", lambda listed: [])
+    with pytest.raises(NoMachineCode, match="changed while they were compiled"):
+        make.make(SOLVER, "linux-x86_64")
 
 
 def test_a_library_of_another_build_is_refused(copy: Path) -> None:

@@ -36,14 +36,17 @@ if TYPE_CHECKING:
 def make(sources: Sources, system: str) -> None:
     """Make the library of a package for all levels of processors of a system.
 
-    Raises NoMachineCode if a kernel does what none may do, or there is no linker.
+    Raises NoMachineCode if a kernel does what none may do, if there is no linker, or if sources are edited
+    meanwhile: what was compiled is not known then.
     """
     from mebdf.compiled import build, jit
     from mebdf.compiled.kernel import entries
 
-    before = fingerprint(sources)  # what is edited meanwhile may be compiled or not
+    before = fingerprint(sources)
     listed = entries(sources)
     functions = _compiled(listed)
+    if fingerprint(sources) != before:
+        raise NoMachineCode("sources changed while they were compiled; make the kernels again")
     described = [(function.symbol, function.kinds, function.result) for function in functions]
     text = str(build.linked(jit.libraries(functions), described))
     levels = PLATFORMS[system].processors
