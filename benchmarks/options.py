@@ -1,6 +1,6 @@
 """What elastic bodies and friction at rest cost: runs with and without them, in turns in one process.
 
-    python -m benchmarks options      # some four minutes
+    python -m benchmarks options      # some two minutes
 
 Of each round the runs with and without an option follow each other; the ratio of their processor times is
 the median over rounds. Steps are those of the integration and do not vary. The last case is a block on an

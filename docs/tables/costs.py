@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tables.benchmarks import SOURCE
+from tables.benchmarks import SOURCE, verdict
 from tables.markdown import Found, Lines, Table, head, row, seconds, stored
 from tribodyn.simulation.costs import COEFFICIENTS
 
@@ -36,8 +36,7 @@ def options(found: Found) -> Lines:
     """Give what elastic bodies and friction at rest cost."""
     yield from head("case", "option", "time", "aim", "steps")
     for one in found["options"]["rows"]:
-        within = one["time"] <= one["aim"]
-        time = f"{one['time']:.2f}" if within else f"**{one['time']:.2f}**"
+        time = verdict(f"{one['time']:.2f}", one["time"] <= one["aim"])
         yield row(one["case"], one["option"], time, f"{one['aim']:g}", f"{one['steps']:.2f}")
 
 

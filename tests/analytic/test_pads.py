@@ -13,6 +13,7 @@ from tribodyn.joints.point_contact import resting
 from tribodyn.joints.shapes import Pads
 from tribodyn.kernels.joints.surface.joint import wrench_and_jacobian
 from tribodyn.kernels.joints.surface.memory import new_memory
+from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.results.reading import column
 
 PLAY = 0.2e-3  #: Radial gap of the ring at each pad [m].
@@ -91,13 +92,18 @@ def test_a_rigid_ring_rests_where_loads_hold_it_and_its_room_ends_there() -> Non
     edge = math.radians(45.0) - 0.5 * 20.0 / 200.2
     loads = np.array([[1.0, 0.0, 7.0, 0.0, 0.0, 5.0], [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
     places = resting(shape, loads)
-    assert places[0, 0] == pytest.approx(
-        PLAY / math.cos(0.5 * 20.0 / 200.2), rel=1e-6
-    )  # on the edges of one pad
+    # On the edges of one pad, and on the near ones of two.
+    assert places[0, 0] == pytest.approx(PLAY / math.cos(0.5 * 20.0 / 200.2), rel=1e-6)
     assert places[1, :2] == pytest.approx(np.full(2, PLAY / math.cos(edge) / math.sqrt(2.0)), rel=1e-6)
     assert places[:, [2, 5]] == pytest.approx(np.zeros((2, 2)))
     reach = np.linalg.norm(shape.room(), axis=1).reshape(4, 3)
     assert reach == pytest.approx(np.tile([PLAY, PLAY, PLAY / math.cos(edge)], (4, 1)))
+
+
+def test_costs_count_the_nodes_that_pads_have() -> None:
+    case = ring(pads=5, towards=0.0, nodes_around=400, nodes_along=6).case()
+    kind = MECHANISMS[case.kind()]
+    assert kind.workload(case).nodes == math.prod(kind.system(case).problem(case.duration).field_shape)
 
 
 @pytest.mark.parametrize(

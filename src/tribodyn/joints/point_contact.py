@@ -174,11 +174,12 @@ class Touch:
 
 
 FlatWalls: TypeAlias = Guide | Slot  #: Shapes with flat walls.
+Cornered: TypeAlias = FlatWalls | Pads  #: Shapes whose room has corners, where a shaft can rest.
 #: Distance of a point beyond the walls, over the clearance: loads so much smaller than others do not move.
 _FAR: Final = 1.0e3
 
 
-def resting(shape: FlatWalls | Pads, loads: FloatArray) -> FloatArray:
+def resting(shape: Cornered, loads: FloatArray) -> FloatArray:
     """Return displacement and rotation of a smooth, rigid shaft that loads hold against walls, (n, 6).
 
     Loads are forces [N] and moments [N m] about its middle, shape (n, 6); those along the axis do not count.

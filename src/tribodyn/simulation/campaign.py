@@ -252,9 +252,8 @@ def _noted(worn: Campaign, cycle: Cycle, plan: CampaignPlan, jump: int = 0, lost
         "wear_load_change": load_change(cycle.sliding_load, worn.load),
         "wear_energy_lost": lost,
     }
-    return replace(
-        worn, history={name: np.append(values, entry[name]) for name, values in worn.history.items()}
-    )
+    history = {name: np.append(values, entry[name]) for name, values in worn.history.items()}
+    return replace(worn, history=history)
 
 
 def _added(before: dict[str, float], cost: Statistics) -> dict[str, float]:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from fnmatch import fnmatchcase
 from typing import Any, Final
 
 from tribodyn.cases.case import Case, with_entries
@@ -11,7 +10,7 @@ from tribodyn.cases.tables import keys_at, plain_path
 from tribodyn.core.errors import Faults, InputError
 from tribodyn.mechanisms.catalogue import MECHANISMS, parse_case, template
 from tribodyn.mechanisms.mechanism_protocol import MechanismDescriptor
-from tribodyn.workbench.controls import FILE
+from tribodyn.workbench.controls import FILE, matches
 from tribodyn.workbench.messages import Edit, Values
 from tribodyn.workbench.variant import NO_FILES, Origin
 
@@ -66,7 +65,7 @@ def removable(case: Case) -> tuple[str, ...]:
 
 
 def _is_removable(case: Case, table: str) -> bool:
-    return any(table.count(".") == one.count(".") and fnmatchcase(table, one) for one in _tables(case))
+    return any(matches(table, pattern) for pattern in _tables(case))
 
 
 def _above(path: str) -> Iterator[str]:

@@ -22,12 +22,12 @@ from tribodyn.joints.shapes.rings import across
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.tilt import WHOLE
 
-_FEWEST: Final = 4  #: Nodes across a wall, however narrow it is.
+FEWEST: Final = 4  #: Nodes across a wall or a pad, however narrow it is.
 
 
 def rows_across(around: int) -> int:
     """Return the nodes across a wall: those around a block are shared out among four."""
-    return max(around // 4, _FEWEST)
+    return max(around // 4, FEWEST)
 
 
 @dataclass(frozen=True)

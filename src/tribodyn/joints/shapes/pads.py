@@ -12,12 +12,16 @@ import numpy as np
 from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import portable
 from tribodyn.core.errors import InputError
+from tribodyn.joints.shapes.guide import FEWEST
 from tribodyn.joints.shapes.mesh import patches
 from tribodyn.joints.shapes.rings import across
 from tribodyn.joints.shapes.surface import Points, Surface, check_positive, no_points
 from tribodyn.kernels.joints.surface.tilt import AXIS
 
-FEWEST_AROUND = 4  #: Nodes along a pad, however short it is.
+
+def nodes_along(around: int, width: float, bore: float) -> int:
+    """Return the nodes along a pad without its edges: its share of those around a ring."""
+    return max(math.ceil(around * width / (2.0 * math.pi * bore)), FEWEST)
 
 
 @dataclass(frozen=True)
@@ -50,8 +54,8 @@ class Pads:
         return tuple(self._pad(k, first, last, grid) for k, (first, last) in enumerate(self.edges.tolist()))
 
     def _pad(self, number: int, first: float, last: float, grid: tuple[int, int]) -> Surface:
-        bore, share = self.radius + self.clearance, (last - first) / (2.0 * math.pi)
-        theta, arc = across(first, last, max(math.ceil(grid[0] * share), FEWEST_AROUND))
+        bore = self.radius + self.clearance
+        theta, arc = across(first, last, nodes_along(grid[0], self.width, bore))
         z, weight = across(-0.5 * self.length, 0.5 * self.length, grid[1])
         around = np.column_stack([portable.cos(theta), portable.sin(theta), 0.0 * theta])
         normal, area = np.tile(around, (z.size, 1)), np.outer(weight, bore * arc).ravel()

@@ -177,7 +177,9 @@ class LedLoads(JointLoads):
         coefficients = np.linalg.solve(self.root, linear.motions).T @ free
         whole = coefficients.T @ linear.stiffness @ coefficients
         values, vectors = dense.eigh(0.5 * (whole + whole.T))
-        flat = max(_FLAT * float(np.max(np.abs(values))), self._rounding(linear, moving))
+        # What rounding of the loads may cause over unit motions [1/s²].
+        rounding = _FLAT * linear.load * float(np.max(np.abs(moving))) / self.ideal.size
+        flat = max(_FLAT * float(np.max(np.abs(values))), rounding)
         stiff = np.abs(values) > flat
         by_springs = self._by_springs(moving)
         self._lock(moving, by_springs)
@@ -204,7 +206,3 @@ class LedLoads(JointLoads):
         bodies.v[:], bodies.w[:] = self.velocity[:, :3], self.velocity[:, 3:]
         self.ideal.refresh()
         collect(self.ideal.now.bodies, self.state)
-
-    def _rounding(self, linear: LinearEquations, moving: FloatArray) -> float:
-        """Return the stiffness over unit motions that rounding of the loads may cause [1/s²]."""
-        return _FLAT * linear.load * float(np.max(np.abs(moving))) / self.ideal.size

@@ -27,8 +27,8 @@ import numpy as np
 
 from mebdf.arrays import FloatArray
 from tribodyn.joints.clearances import Clearance
-from tribodyn.joints.point_contact import FlatWalls, resting
-from tribodyn.joints.shapes import Cylinder, Pads, Sphere
+from tribodyn.joints.point_contact import Cornered, resting
+from tribodyn.joints.shapes import Cylinder, Sphere
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_global_axes, motion_of
 from tribodyn.mechanism.assembly.output_values import Output
@@ -52,7 +52,7 @@ class JointReaction:
     def displacements(self) -> FloatArray:
         """Return displacement and rotation of the shaft by cause, shape (n_t, 4, 6), see ``CAUSES``."""
         found = np.zeros((len(self.force), len(CAUSES), 6))
-        if isinstance(self.clearance.shape, FlatWalls | Pads):
+        if isinstance(self.clearance.shape, Cornered):
             rests = resting(self.clearance.shape, -np.hstack([self.force, self.moment]))
             found[:, 0, :3], found[:, 1, 3:] = rests[:, :3], rests[:, 3:]
             return found

@@ -66,7 +66,10 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     """
     soft, quiet, floor = 0.0, False, _FLOOR
     for look in range(_MOST_LOOKS):
-        (loads.survey if near and look >= _PLAIN_LOOKS else loads.look)()
+        if near and look >= _PLAIN_LOOKS:
+            loads.survey()
+        else:
+            loads.look()
         if quiet and loads.unbalance() <= _BALANCED:
             return loads.state
         steps, moved, soft = _eased(loads, soft, floor, change) if loads.motions.size else (0, 0.0, soft)

@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 
 from mebdf.arrays import FloatArray, IntArray
-from tribodyn.joints.point_contact import FlatWalls
-from tribodyn.joints.shapes import Pads
+from tribodyn.joints.point_contact import Cornered
 from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.sections.charts import Shafts
@@ -130,7 +129,7 @@ def room_of(case: MechanismCase | None, joint: int) -> FloatArray:
     if keys is None or keys.real is None:
         return np.zeros((0, 2))
     shape = SHAPES[keys.shape].of(keys.real, np.asarray)
-    return shape.room() / shape.clearance if isinstance(shape, FlatWalls | Pads) else np.zeros((0, 2))
+    return shape.room() / shape.clearance if isinstance(shape, Cornered) else np.zeros((0, 2))
 
 
 def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:

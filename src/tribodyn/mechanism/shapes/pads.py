@@ -4,8 +4,10 @@ from typing import Any, ClassVar
 
 from tribodyn.cases.case import NamedGroup
 from tribodyn.cases.fields import count, quantity
-from tribodyn.joints.shapes import Pads
+from tribodyn.joints.shapes.pads import Pads, nodes_along
+from tribodyn.joints.shapes.rings import EDGES
 from tribodyn.mechanism.shapes.clearance_shape import ClearanceShape, Local
+from tribodyn.mechanism.shapes.cylinder import ShaftInBore
 
 
 class PadKeys(NamedGroup):
@@ -27,12 +29,7 @@ class RingOnPads(ClearanceShape):
         "pads": "their number",
         "pad_width": "their width along the ring",
     }
-    EXAMPLE: ClassVar[dict[str, object]] = {
-        **ClearanceShape.EXAMPLE,
-        "length": "20 mm",
-        "pads": "4",
-        "pad_width": "5 mm",
-    }
+    EXAMPLE: ClassVar[dict[str, object]] = {**ShaftInBore.EXAMPLE, "pads": "4", "pad_width": "5 mm"}
     KEYS: ClassVar[type[NamedGroup]] = PadKeys
     IDEAL: ClassVar[str] = "cylindrical"
 
@@ -42,4 +39,5 @@ class RingOnPads(ClearanceShape):
 
     def nodes(self, keys: Any, around: int, along: float) -> float:
         """Return the nodes of all pads."""
-        return sum(s.area.size for s in self.of(keys, lambda points: points).surfaces((around, round(along))))
+        each = nodes_along(around, keys.pad_width, keys.radius + keys.radial) + EDGES
+        return float(keys.pads * each * along)

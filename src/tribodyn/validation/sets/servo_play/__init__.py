@@ -35,7 +35,9 @@ def compare(one: ValidationSet) -> Outcome:
         low, high = interval(found, "compliance")
         note = "The measured value is the droop of servo_gear_friction at 12 V." if judged else ""
         value, droop = found.named["compliance"], one.value("droop") if judged else None
-        facts = 0.5 * (high - low), 0.0, _straight_line(one, name), None, (low, high)
+        # As if there were no play.
+        straight = 0.5 * measured(one, name)["loaded"] / one.inputs["torque"].value
+        facts = 0.5 * (high - low), 0.0, straight, None, (low, high)
         rows.append(Comparison(f"{name}, compliance", "deg per N m", value, droop, *facts, note=note))
     return Outcome(tuple(rows), _plot(one))
 
@@ -50,11 +52,6 @@ def measured(one: ValidationSet, name: str) -> dict[str, float]:
     """Return released and loaded deviation of a configuration [deg]."""
     rows = [row for row in one.rows("deviation.csv") if row["configuration"] == name]
     return {row["state"]: float(row["recomputed_deg"]) for row in rows}
-
-
-def _straight_line(one: ValidationSet, name: str) -> float:
-    """Return the loaded deviation over the range of the torque, as if there were no play [deg/(N m)]."""
-    return 0.5 * measured(one, name)["loaded"] / one.inputs["torque"].value
 
 
 def fitted(one: ValidationSet, name: str) -> LeastSquares:
