@@ -18,9 +18,11 @@ RATE = 400.0
 
 def rhs(t, y, data, memory, f):
     """Diffusion along a chain between walls at zero, with a cubic sink."""
-    f[:] = -2.0 * data * y - y**3
-    f[1:] += data * y[:-1]
-    f[:-1] += data * y[1:]
+    n = y.size
+    for i in range(n):
+        left = y[i - 1] if i > 0 else 0.0
+        right = y[i + 1] if i < n - 1 else 0.0
+        f[i] = data * (left - 2.0 * y[i] + right) - y[i] ** 3
 
 
 def jac_dense(t, y, data, memory, f, jacobian):
