@@ -176,7 +176,7 @@ def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path) -> Non
 @pytest.mark.parametrize("length", [5_000_000, pytest.param(20_000_000, marks=pytest.mark.long)])
 def test_texts_of_megabytes_are_refused_early(length: int, tmp_path: Path) -> None:
     with watched() as process:
-        for content in (b"1\n", b"1,", b",", b"#"):
+        for content in (b"1\n", b"1,", b",", b"#", b"\n", b"a\n"):
             (tmp_path / "scan.csv").write_bytes(content * length)
             outcome = process.run(["surface", str(tmp_path / "scan.csv"), "--quiet"])
             assert outcome.status == 2

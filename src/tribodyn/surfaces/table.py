@@ -16,6 +16,8 @@ from tribodyn.core.quoting import as_given
 from tribodyn.surfaces.scan import MOST_POINTS
 
 LONGEST_LINE: Final = 100_000_000  #: Bytes of a line, at most: a profile may stand in a single one.
+MOST_WORDS: Final = 1_000_000  #: Lines without numbers, at most: blank ones, comments, words.
+_WORDS: Final = re.compile(r"\s*+(?:$|[#%/]|(?!nan)[^\W\d])", re.IGNORECASE)
 _MISSING: Final = ("", "nan")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _DECIMAL_COMMA: Final = re.compile(r"[+-]?\d+,\d+", re.ASCII)
@@ -33,16 +35,20 @@ class Line(NamedTuple):
 def lines(stream: BinaryIO, source: str) -> Iterator[Line]:
     """Give the lines of a file that are not blank.
 
-    ``stream``: an open file. Raises InputError if the file is empty or binary, or a line is too long.
+    ``stream``: an open file. Raises InputError if the file is empty or binary, a line is too long, or there
+    are too many lines without numbers.
     """
-    number = start = 0
+    number = start = words = 0
     while content := stream.readline(LONGEST_LINE):
         if len(content) == LONGEST_LINE:
             raise InputError(f"line {number + 1} has {LONGEST_LINE} characters or more", source=source)
         for text in _decoded(content, start, source).splitlines():
             number += 1
+            words += _WORDS.match(text) is not None
             if text and not text.isspace():
                 yield Line(number, text)
+        if words > MOST_WORDS:
+            raise InputError(f"more than {MOST_WORDS} lines hold no numbers", source=source)
         start += len(content)
     if start == 0:
         raise InputError("the file is empty", source=source)
