@@ -11,9 +11,9 @@ from typing import Any, Final
 from tables.markdown import BAR, Lines, Table, head, row
 from tribodyn.cases import Case, Key, keys_of
 from tribodyn.cases.keys import ANY_NAME, groups_of
+from tribodyn.kernels.mechanism.data import DIRECTION, POINT
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.joints import JOINTS
-from tribodyn.mechanism.joints.joint_type import words_of
 from tribodyn.mechanisms.catalogue import kinds, load_case
 
 
@@ -58,7 +58,13 @@ def equations() -> Lines:
     yield from head("joint", "coordinates of the origin", "directions at right angles")
     for name, kind in JOINTS.items():
         if kind.ROWS:
-            yield row(name, *words_of(kind.ROWS))
+            places = ("xyz"[axis] for row_kind, axis, _ in kind.ROWS if row_kind == POINT)
+            pairs = (
+                f"{'xyz'[axis]}–{'xyz'[other]}'"
+                for row_kind, axis, other in kind.ROWS
+                if row_kind == DIRECTION
+            )
+            yield row(name, ", ".join(places), ", ".join(pairs))
 
 
 #: Keys of a joint's clearance that are sizes, or its friction.

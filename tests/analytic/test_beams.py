@@ -254,6 +254,7 @@ def test_the_bending_part_of_a_levers_error_is_that_of_a_cantilever() -> None:
         ({"bodies.beam.beam.density": "-1 kg/m^3"}, "bodies.beam.beam.density: .*density, > 0"),
         ({"bodies.beam.beam.points": "0, 0, 0 mm"}, "bodies.beam.beam.points: .*two points or more"),
         ({"bodies.beam.beam.section": "circle"}, "bodies.beam.beam.radius: .*a section circle needs radius"),
+        ({"bodies.beam.beam.height_axis": (1.0, 0.0, 0.0)}, "beam.height_axis: .*lies across the line"),
     ],
 )
 def test_a_wrong_elastic_body_is_refused_in_one_sentence(changes: dict[str, object], words: str) -> None:

@@ -3,7 +3,7 @@
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -157,31 +157,6 @@ def sets_table(all_judged: Iterable[Judged]) -> Iterator[str]:
 
 def _row(counts: Counter[str]) -> str:
     return " | ".join(str(counts[name]) for name in COUNTS)
-
-
-def predictions_table(entries: Iterable[Mapping[str, Any]]) -> Iterator[str]:
-    """Give the register of predictions as a table."""
-    columns = ("set", "quantity", "value", "interval", "null model", "unit", "refuted by", "entered", "hash")
-    yield f"| {' | '.join(columns)} |"
-    yield "|" + "---|" * len(columns)
-    for entry in entries:
-        low, high = number(entry["low"]), number(entry["high"])
-        cells = (
-            f"`{entry['set']}`",
-            entry["name"],
-            number(entry["value"]),
-            f"{low} to {high}",
-            _null_of(entry),
-            entry["unit"],
-            entry.get("refuted_by", ""),
-        )
-        yield f"| {' | '.join(cells)} | {entry['date']} | `{entry['hash'][:12]}` |"
-
-
-def _null_of(entry: Mapping[str, Any]) -> str:
-    if "null" not in entry:
-        return ""
-    return "{} ({} to {})".format(*(number(entry[key]) for key in ("null", "null_low", "null_high")))
 
 
 def allowed(band: Band | None, measured: float | None) -> str:

@@ -4,8 +4,6 @@ import re
 from pathlib import Path
 
 from tribodyn.validation import NAMES
-from tribodyn.validation.predictions import register
-from tribodyn.validation.report import predictions_table
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs" / "validation" / "index.md").read_text(encoding="utf-8")
@@ -19,7 +17,3 @@ def test_every_named_test_exists() -> None:
 
 def test_every_set_stands_in_the_table_by_quantity() -> None:
     assert set(re.findall(r"\(sets/([a-z_0-9]+)\.md\)", PAGE)) == set(NAMES)
-
-
-def test_rows_of_the_register_have_one_width() -> None:
-    assert len({line.count("|") for line in predictions_table(register())}) == 1

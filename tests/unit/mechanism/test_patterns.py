@@ -237,6 +237,13 @@ def test_a_written_case_with_elastic_copies_reads_back() -> None:
     assert parse_case(ring.to_toml(), "test") == ring
 
 
+@pytest.mark.parametrize("points", ["0, 0, 400 mm", "0, 0, 400, 0, 0, 400 mm"])
+def test_a_repeated_beam_without_a_line_is_refused_at_the_key_that_was_written(points: str) -> None:
+    case = parse_case(TEMPLATES["vsv-ring"].text, "test")
+    with pytest.raises(InputError, match=r"bodies\.lever\.beam\.points"):
+        with_entries(case, {"bodies.lever.beam.points": points}, "test")
+
+
 def test_the_worst_copy_is_so_over_time_and_not_over_rows():
     time, error = np.append(np.linspace(0.0, 0.01, 100), [0.0101, 1.0]), np.zeros((102, 3))
     error[:100, 0], error[100:, 2] = 1.0, 0.5

@@ -76,10 +76,3 @@ class JointType:
 
     def fill(self, record: Any, keys: Any) -> None:
         """Fill the record of the coupling beside its constraint equations; by default nothing."""
-
-
-def words_of(rows: tuple[Row, ...]) -> tuple[str, str]:
-    """Return constraint equations in words: coordinates of the origin, and directions at right angles."""
-    places = ["xyz"[axis] for kind, axis, _ in rows if kind == POINT]
-    directions = [f"{'xyz'[axis]}–{'xyz'[other]}'" for kind, axis, other in rows if kind == DIRECTION]
-    return ", ".join(places), ", ".join(directions)

@@ -6,11 +6,12 @@ from typing import ClassVar, Final, Literal
 import numpy as np
 
 from mebdf.arrays import FloatArray
-from tribodyn.cases.case import NamedGroup, demand
+from tribodyn.cases.case import NamedGroup, demand, unit
 from tribodyn.cases.fields import Numbers, Vector, choice, count, number, quantity, series, vector
 from tribodyn.cases.materials import MATERIALS
 
 SAME: Final = 1.0e-9  #: Distance over the length of a beam at which two places are one.
+_ALONG: Final = 1.0e-6  #: Sine of the angle at which a direction is that of a piece.
 
 
 class BeamBodyKeys(NamedGroup):
@@ -88,10 +89,14 @@ class BeamBodyKeys(NamedGroup):
             "points",
             "a beam goes through two points or more, three numbers each",
         )
-        steps = np.linalg.norm(np.diff(self.line, axis=0), axis=1)
-        demand(
-            bool(np.all(steps > SAME * steps.sum())), "points", "two points that follow each other are one"
-        )
+        steps = np.diff(self.line, axis=0)
+        lengths = np.linalg.norm(steps, axis=1)
+        words = "two points that follow each other are one"
+        demand(bool(np.all(lengths > SAME * lengths.sum())), "points", words)
+        if self.height_axis is not None:
+            sides = np.linalg.norm(np.cross(steps, unit(self.height_axis, "height_axis")), axis=1)
+            words = "the height lies across the line, and this direction is that of a piece of it"
+            demand(bool(np.all(sides > _ALONG * lengths)), "height_axis", words)
         needed = {
             "rectangle": ("width", "height"),
             "circle": ("radius",),

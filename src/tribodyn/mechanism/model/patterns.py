@@ -32,6 +32,7 @@ from tribodyn.cases.keys import Key, Value
 from tribodyn.core.errors import below
 from tribodyn.kernels import dense
 from tribodyn.mechanism.frames import frame
+from tribodyn.mechanism.model.beam import BeamBodyKeys
 from tribodyn.mechanism.model.parts import POINT
 
 PATTERN, SCATTER = "pattern", "scatter"
@@ -328,7 +329,7 @@ class _Repeated:
         ) or f"{part}.inertia" in given:
             yield from ((f"{part}.first_axis", (1.0, 0.0, 0.0)), (f"{part}.second_axis", (0.0, 1.0, 0.0)))
         elif f"{part}.beam.points" in given:
-            line = np.array(given[f"{part}.beam.points"]).reshape(-1, 3)
+            line = group_at(BeamBodyKeys, f"{part}.beam", given).line
             yield f"{part}.beam.height_axis", tuple(frame(line[1] - line[0], np.zeros(3))[:, 0].tolist())
         elif f"{part}.axis" in given and part.startswith("joints."):
             axis = np.array(given[f"{part}.axis"])
