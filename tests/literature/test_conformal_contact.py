@@ -67,13 +67,18 @@ class Bore:
     """A long smooth pin in its bore, at rest."""
 
     def __init__(
-        self, make: Callable[..., Clearance], pair: SurfacePair, sigma: float = 1e-9, **sizes: float
+        self,
+        make: Callable[..., Clearance],
+        pair: SurfacePair,
+        sigma: float = 1e-9,
+        along: int = 4,
+        **sizes: float,
     ) -> None:
         tips = {"asperity_radius": 5e3 * sigma, "asperity_density": 1e-4 / sigma**2}
         smooth = dataclasses.replace(pair, roughness=(0.0, sigma), **tips)
         table = tabulate(law("gw", smooth))
         sizes = {"radius": RADIUS, "clearance": ROOM, "length": LENGTH} | sizes
-        made = make("cylinder", grid=(2048, 4), coefficient=0.0, table=table, **sizes)
+        made = make("cylinder", grid=(2048, along), coefficient=0.0, table=table, **sizes)
         bulk = Bulk(table, sigma, MODULUS, made.shape.bore_radius)
         self.clearance = dataclasses.replace(made, roughness=sigma, bulk=bulk, hardness=math.inf)
         self.data = assemble([self.clearance])
@@ -85,11 +90,12 @@ class Bore:
 
     def under(self, force: float) -> tuple[float, float]:
         """Return half angle [rad] and largest pressure over E c/R under a force over E c."""
-        size = MODULUS * LENGTH * ROOM
+        room = self.clearance.shape.clearance
+        size = MODULUS * LENGTH * room
         off = brentq(
-            lambda off: -self.report(off)["F_cx"] / size - force, 0.99 * ROOM, 40.0 * ROOM, xtol=1e-15
+            lambda off: -self.report(off)["F_cx"] / size - force, 0.99 * room, 40.0 * room, xtol=1e-15
         )
-        largest = float(self.report(off)["p_max"]) * RADIUS / (MODULUS * ROOM)
+        largest = float(self.report(off)["p_max"]) * RADIUS / (MODULUS * room)
         field = np.empty(self.memory.entry_velocity.size)
         pressure_field(self.data, self.memory, 0, pose_at([off, 0.0, 0.0]), field)
         around = field.reshape(-1, 2048)[2]
@@ -131,28 +137,41 @@ def test_hertz(make_clearance: Callable[..., Clearance], table_1_pair: SurfacePa
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-@pytest.mark.parametrize("slope", [0.003, 0.03, 0.3])
-def test_sections_of_a_tilted_pin_are_those_of_a_long_one(slope: float) -> None:
-    """A cylinder of radius 1 leans on a half-space of modulus 1; it ends where it is deepest."""
+@pytest.mark.parametrize("room", [20e-6, 40e-6, 80e-6])
+def test_sections_of_a_tilted_pin_are_those_of_a_long_one(
+    make_clearance: Callable[..., Clearance], table_1_pair: SurfacePair, room: float
+) -> None:
+    """It leans on an elastic half-space as curved as the clearance, and touches over 8° at its end."""
     pytest.importorskip("ContactMechanics")
     from ContactMechanics import FreeFFTElasticHalfSpace
     from ContactMechanics.Systems import NonSmoothContactSystem
     from SurfaceTopography import Topography
 
-    n, sizes = 128, (6.0 * math.sqrt(2.0 * slope), 1.6)
-    x, z = ((np.arange(n) + 0.5) / n * size for size in sizes)
-    heights = slope * (z - sizes[1])[None, :] - 0.5 * (x - 0.5 * sizes[0])[:, None] ** 2
+    n, width, depth = 128, 0.45 * RADIUS, 0.5 * math.radians(8.0) ** 2 * room
+    x, z = ((np.arange(n) + 0.5) / n * size for size in (width, LENGTH))
+    tilt = depth / (0.6 * LENGTH)
+    tilted = tilt * (z - LENGTH)[None, :]
+    heights = tilted - 0.5 * room * ((x - 0.5 * width)[:, None] / RADIUS) ** 2
     system = NonSmoothContactSystem(
-        FreeFFTElasticHalfSpace((n, n), 1.0, sizes), Topography(heights, physical_sizes=sizes)
+        FreeFFTElasticHalfSpace((n, n), MODULUS, (width, LENGTH)),
+        Topography(heights, physical_sizes=(width, LENGTH)),
     )
-    load = 0.25 * math.pi * slope * (2.0 * slope) ** 0.2  # so that contacts are about as long as 1
-    result = system.minimize_proxy(external_force=load, pentol=1e-8 * slope, maxiter=2000)
+    load = 0.4 * MODULUS * LENGTH * depth
+    result = system.minimize_proxy(external_force=load, pentol=1e-5 * depth, maxiter=2000)
     assert result.success
-    cell = sizes[0] * sizes[1] / n**2
-    pressures = np.abs(system.substrate.force[:n, :n]) / cell
-    for section in (n - n // 4, n - n // 3):
+    pressures = np.abs(system.substrate.force[:n, :n]) * n**2 / (width * LENGTH)
+    assert np.sum(pressures) * width * LENGTH / n**2 == pytest.approx(load, rel=1e-3)
+    bore = Bore(make_clearance, table_1_pair, clearance=room)
+    for section in (n - n // 8, n - n // 4, n - n // 3):
         pressure = pressures[:, section]
-        per_length, largest = pressure.sum() * sizes[0] / n, pressure.max()
-        half = 0.5 * sizes[0] / n * np.count_nonzero(pressure > 1e-3 * largest)
-        assert half == pytest.approx(math.sqrt(4.0 * per_length / math.pi), rel=0.1)
-        assert largest == pytest.approx(2.0 * per_length / (math.pi * half), rel=0.1)
+        half = 0.5 * width / n * np.count_nonzero(pressure > 1e-3 * pressure.max())
+        angle, largest = bore.under(pressure.sum() * width / n / (MODULUS * room))
+        assert half == pytest.approx(angle * RADIUS, rel=0.1)
+        assert pressure.max() == pytest.approx(largest * MODULUS * room / RADIUS, rel=0.1)
+    # The half-space goes on beyond the edge: the edge of the pin carries more, and the load acts further in.
+    tilted_bore, turned = Bore(make_clearance, table_1_pair, along=32, clearance=room), np.eye(3)
+    turned[0, 2], turned[2, 0] = tilt, -tilt
+    off = brentq(lambda off: -tilted_bore.report(off, turned)["F_cx"] - load, 0.99 * room, 2.0 * room)
+    found = tilted_bore.report(off, turned)
+    within = np.sum(pressures, axis=0) @ (z - 0.5 * LENGTH) / np.sum(pressures)
+    assert 0.6 < within / (found["M_cy"] / found["F_cx"]) < 0.75
