@@ -9,8 +9,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Final, Self
 
 from tribodyn.cases import materials
-from tribodyn.cases.beyond import FollowedTable, of_tables
 from tribodyn.cases.case import Case
+from tribodyn.cases.followed_tables import FollowedTable, of_tables
 from tribodyn.cases.groups import AsperityKeys, Contact, Solver, Surfaces
 from tribodyn.cases.joint_keys import CONFORMAL, PlainJoint
 from tribodyn.cases.keys import Key, Value, keys_of

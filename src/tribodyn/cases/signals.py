@@ -10,10 +10,10 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
-from tribodyn.cases.beyond import whole_turns
 from tribodyn.cases.case import Group, NamedGroup, demand
 from tribodyn.cases.columns import KNOTS, MAP, TABLE, TIMES, VALUES, TableProblem, check, check_map
 from tribodyn.cases.fields import Numbers, choice, file, name, number, quantity, series, switch
+from tribodyn.cases.followed_tables import whole_turns
 from tribodyn.cases.units import unit_of
 
 if TYPE_CHECKING:

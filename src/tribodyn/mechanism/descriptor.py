@@ -10,7 +10,7 @@ from tribodyn.cases.load import BuiltIn, flat
 from tribodyn.core import files
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import OF_CYCLE, VARIABLES
-from tribodyn.mechanism.results.followed import BY_SPRING
+from tribodyn.mechanism.results.derived_columns import BY_SPRING
 from tribodyn.mechanism.results.guides import BY_GUIDE
 from tribodyn.mechanism.results.joint_numbers import BY_JOINT
 from tribodyn.mechanism.results.mechanism_results import BY_MODE, KEY_NUMBERS, KEY_RESULTS

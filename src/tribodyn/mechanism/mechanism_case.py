@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 from pydantic import PrivateAttr, create_model
 
 from tribodyn.cases import materials
-from tribodyn.cases.beyond import FollowedTable, followed, of_tables
 from tribodyn.cases.case import Case, demand, demand_known, with_entries
 from tribodyn.cases.fields import Vector, choice, tables, text, vector
+from tribodyn.cases.followed_tables import FollowedTable, followed, of_tables
 from tribodyn.cases.groups import Contact, check_output_interval
 from tribodyn.cases.joint_keys import CONFORMAL, FilmGridKeys, Wear
 from tribodyn.cases.keys import ASSUMED, Value, keys_of

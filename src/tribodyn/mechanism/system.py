@@ -39,7 +39,7 @@ from tribodyn.mechanism.results import mechanism_checks as checks
 from tribodyn.mechanism.results import temperature_effects
 from tribodyn.mechanism.results.contacts import Contacts
 from tribodyn.mechanism.results.copies import why
-from tribodyn.mechanism.results.followed import (
+from tribodyn.mechanism.results.derived_columns import (
     coordinate,
     drive_limits,
     followed,
@@ -50,7 +50,8 @@ from tribodyn.mechanism.results.followed import (
     with_motors,
 )
 from tribodyn.mechanism.results.guides import guide_columns
-from tribodyn.mechanism.results.kept import (
+from tribodyn.mechanism.results.joint_readings import TERMS, WHOLE, balance_columns
+from tribodyn.mechanism.results.kept_variables import (
     Layout,
     columns,
     film_coordinates,
@@ -70,7 +71,6 @@ from tribodyn.mechanism.results.output_columns import (
     kinematic_columns,
     output_coordinates,
 )
-from tribodyn.mechanism.results.readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.temperature_effects import flash_temperatures
 from tribodyn.mechanisms.bushing import Carried, WearNodes, Worn
 from tribodyn.mechanisms.mechanism_protocol import FinishedRun, ResultPart, WearRates

@@ -12,7 +12,7 @@ from tribodyn.kernels.mechanism.data import N_STATES
 from tribodyn.mechanism.assembly.clearance_surfaces import grid_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys
-from tribodyn.mechanism.results.kept import frames, layout_of
+from tribodyn.mechanism.results.kept_variables import frames, layout_of
 from tribodyn.mechanism.shapes import SHAPES
 from tribodyn.mechanisms.workload import Keys, Workload, simulated_cycles
 

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from mebdf.arrays import FloatArray
-from tribodyn.cases.beyond import FollowedTable
+from tribodyn.cases.followed_tables import FollowedTable
 from tribodyn.core.quantities import Record
 from tribodyn.joints.point_contact import Touch
 from tribodyn.mechanisms.results import impact_time

@@ -8,7 +8,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from mebdf.arrays import FloatArray
-from tribodyn.cases.beyond import lasts_a_cycle
+from tribodyn.cases.followed_tables import lasts_a_cycle
 from tribodyn.cases.loads import BodyLoad
 from tribodyn.core.signals import Signal, for_each_cycle, scaled, sinusoid
 from tribodyn.kernels import actions as kinds

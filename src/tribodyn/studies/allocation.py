@@ -21,9 +21,9 @@ from tribodyn.cases.units import from_si
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.results.store import write_text
-from tribodyn.studies.choices import Choice, QuadraticModel, Scattering, are_kept
 from tribodyn.studies.differences import DIGITS, numbers_of
 from tribodyn.studies.plan import Axis, plan_of
+from tribodyn.studies.quadratic_model import Choice, QuadraticModel, Scattering, are_kept
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.search import Limit, limit, readable
 from tribodyn.studies.statistics import Share, share_of

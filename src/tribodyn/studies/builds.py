@@ -26,8 +26,8 @@ from tribodyn.results.summary import Summary
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
 from tribodyn.studies.archive import remarks
-from tribodyn.studies.choices import quadratic
 from tribodyn.studies.plan import POINT, Axis, plan_of, varied_key
+from tribodyn.studies.quadratic_model import quadratic
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.sweep import SILENT, Means, Watcher, compute_missing
 

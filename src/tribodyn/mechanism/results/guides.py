@@ -19,7 +19,7 @@ from tribodyn.joints.shapes import Surface
 from tribodyn.kernels.joints.surface.data import GAP, SurfaceData
 from tribodyn.kernels.joints.surface.tilt import LINE
 from tribodyn.mechanism.assembly.parts_by_number import Model
-from tribodyn.mechanism.results import readings
+from tribodyn.mechanism.results import joint_readings as readings
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import of_part, time_mean
 from tribodyn.results.summary import KeyResult

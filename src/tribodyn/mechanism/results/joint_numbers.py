@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from mebdf.arrays import FloatArray
-from tribodyn.mechanism.results import readings
+from tribodyn.mechanism.results import joint_readings as readings
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import column, of_part, peak, rms, settled, sustained, time_mean
 from tribodyn.results.summary import KeyResult

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from mebdf.arrays import FloatArray
-from tribodyn.mechanism.results import readings
+from tribodyn.mechanism.results import joint_readings as readings
 from tribodyn.mechanism.results.copies import COPIES
-from tribodyn.mechanism.results.followed import LIMITS
+from tribodyn.mechanism.results.derived_columns import LIMITS
 from tribodyn.mechanism.results.joint_numbers import DRIVEN, OUTSIDE, pair
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results import reading

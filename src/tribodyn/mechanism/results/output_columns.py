@@ -19,7 +19,7 @@ from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.joints.elastic import flexibility
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import GIVEN
-from tribodyn.mechanism.results.followed import coordinate
+from tribodyn.mechanism.results.derived_columns import coordinate
 from tribodyn.mechanisms.output_keys import Instant, instant_coordinates, instants_of
 from tribodyn.mechanisms.output_numbers import errors_at, shaft_displacements
 

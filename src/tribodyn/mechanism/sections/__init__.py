@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from tribodyn.mechanism.results.readings import offset, sizes
+from tribodyn.mechanism.results.joint_readings import offset, sizes
 from tribodyn.mechanism.sections import mechanism
 from tribodyn.mechanism.sections.charts import CHARTS, ENERGY
 from tribodyn.mechanism.sections.copies import COPIES

@@ -11,7 +11,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.core.splines import Cubics
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.results.copies import copies_of, worst
-from tribodyn.mechanism.results.readings import WHOLE, offset, sizes
+from tribodyn.mechanism.results.joint_readings import WHOLE, offset, sizes
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.views.charts import LOOKS, Chart, ChartCurve, Panel
 from tribodyn.views.energy_balance import balance_chart

@@ -19,7 +19,7 @@ from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 from tribodyn.mechanism.model.parts import JointKeys
-from tribodyn.mechanism.results.followed import OBSERVED, coordinate, followed_by
+from tribodyn.mechanism.results.derived_columns import OBSERVED, coordinate, followed_by
 from tribodyn.mechanism.sections.charts import Shafts
 from tribodyn.mechanism.sections.joints import loaded_joints
 from tribodyn.mechanism.shapes import SHAPES

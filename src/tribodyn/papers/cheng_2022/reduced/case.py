@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, Self
 
-from tribodyn.cases.beyond import FollowedTable, followed
 from tribodyn.cases.case import Group, demand
 from tribodyn.cases.fields import choice, count, number, quantity, tables, text
+from tribodyn.cases.followed_tables import FollowedTable, followed
 from tribodyn.cases.groups import Solver, check_output_interval
 from tribodyn.cases.joint_keys import CONFORMAL, Wear
 from tribodyn.cases.keys import ASSUMED, Value

@@ -26,7 +26,7 @@ from tribodyn.mechanism.mechanism_variables import (
     of_parts,
     place_of,
 )
-from tribodyn.mechanism.results.followed import INPUTS, OBSERVED, followed_by
+from tribodyn.mechanism.results.derived_columns import INPUTS, OBSERVED, followed_by
 from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.output_keys import instants_of

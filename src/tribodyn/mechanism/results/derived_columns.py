@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from mebdf.arrays import FloatArray
-from tribodyn.cases.beyond import FollowedTable
 from tribodyn.cases.case import unit
+from tribodyn.cases.followed_tables import FollowedTable
 from tribodyn.kernels import dense
 from tribodyn.mechanism.assembly.output_values import Motion, observing
 from tribodyn.mechanism.assembly.parts_by_number import Model

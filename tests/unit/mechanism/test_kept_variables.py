@@ -11,7 +11,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanism.figures.joints import draw_maps
 from tribodyn.mechanism.mechanism_variables import BODIES, JOINTS, OIL
 from tribodyn.mechanism.results.contacts import Contacts
-from tribodyn.mechanism.results.kept import OF_LARGE
+from tribodyn.mechanism.results.kept_variables import OF_LARGE
 from tribodyn.mechanism.sections import joints
 from tribodyn.mechanism.sections.mechanism import data
 from tribodyn.mechanisms.results import all_there, summarise
@@ -35,7 +35,7 @@ def whole():
 def large():
     """The same mechanism, taken for a large one, with as many pressure fields."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("tribodyn.mechanism.results.kept.SMALL", 2)
+        patch.setattr("tribodyn.mechanism.results.kept_variables.SMALL", 2)
         return td.simulate(brief(**{"results.frames": 120}))
 
 
