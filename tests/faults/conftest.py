@@ -1,4 +1,4 @@
-"""Disks of their own, which are full or may not be written to."""
+"""Disks of their own, which are full or may not be written to, and processes whose commands are watched."""
 
 import shutil
 import subprocess
@@ -6,6 +6,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from tests.faults.trial import Watched
+
+
+@pytest.fixture(scope="session")
+def process() -> Iterator[Watched]:
+    """Return what runs commands in processes of their own, which are there for all tests."""
+    processes = Watched()
+    yield processes
+    processes.close()
 
 
 @pytest.fixture

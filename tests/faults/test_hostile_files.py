@@ -13,7 +13,7 @@ from pathlib import Path
 
 import netCDF4
 import pytest
-from tests.faults.trial import tolerable, watched
+from tests.faults.trial import Watched, tolerable
 
 from tribodyn.cli.main import main
 from tribodyn.core import files
@@ -149,23 +149,22 @@ READERS: dict[str, tuple[list[Maker], str, list[list[str]]]] = {
     ("part", "count"),
     [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long) for part in range(PARTS))],
 )
-def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path) -> None:
+def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path, process: Watched) -> None:
     draw = random.Random(part)
     found = []
-    with watched() as process:
-        for number in range(count):
-            makers, name, commands = READERS[draw.choice(sorted(READERS))]
-            place = tmp_path / str(number)
-            place.mkdir()
-            maker = draw.choice(makers)
-            maker(place / name, draw)
-            texts = [
-                text.replace("{..}", str(place)).replace("{}", str(place / name))
-                for text in draw.choice(commands)
-            ]
-            outcome = process.run(texts)
-            found.append((maker.__name__, texts[0], outcome))
-            shutil.rmtree(place)
+    for number in range(count):
+        makers, name, commands = READERS[draw.choice(sorted(READERS))]
+        place = tmp_path / str(number)
+        place.mkdir()
+        maker = draw.choice(makers)
+        maker(place / name, draw)
+        texts = [
+            text.replace("{..}", str(place)).replace("{}", str(place / name))
+            for text in draw.choice(commands)
+        ]
+        outcome = process.run(texts)
+        found.append((maker.__name__, texts[0], outcome))
+        shutil.rmtree(place)
     print(
         "worst:", max(one.seconds for *_, one in found), "s,", max(one.megabytes for *_, one in found), "MB"
     )
@@ -174,13 +173,12 @@ def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("length", [5_000_000, pytest.param(20_000_000, marks=pytest.mark.long)])
-def test_texts_of_megabytes_are_refused_early(length: int, tmp_path: Path) -> None:
-    with watched() as process:
-        for content in (b"1\n", b"1,", b",", b"#", b"\n", b"a\n"):
-            (tmp_path / "scan.csv").write_bytes(content * length)
-            outcome = process.run(["surface", str(tmp_path / "scan.csv"), "--quiet"])
-            assert outcome.status == 2
-            assert tolerable(outcome), (content, outcome)
+def test_texts_of_megabytes_are_refused_early(length: int, tmp_path: Path, process: Watched) -> None:
+    for content in (b"1\n", b"1,", b",", b"#", b"\n", b"a\n"):
+        (tmp_path / "scan.csv").write_bytes(content * length)
+        outcome = process.run(["surface", str(tmp_path / "scan.csv"), "--quiet"])
+        assert outcome.status == 2
+        assert tolerable(outcome), (content, outcome)
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -49,10 +49,10 @@ NEEDED = {
 
 
 class Watched:
-    """Processes that run commands, one for each sort of them."""
+    """Processes that run commands, one for all that import the same."""
 
     def __init__(self) -> None:
-        self._processes: dict[str, subprocess.Popen[str]] = {}
+        self._processes: dict[tuple[str, ...], subprocess.Popen[str]] = {}
 
     def run(self, arguments: Sequence[str]) -> Outcome:
         """Run a command; a process that did not survive it answers nothing, which is an error."""
@@ -65,27 +65,18 @@ class Watched:
         return Outcome(**json.loads(answer))
 
     def _process(self, word: str) -> subprocess.Popen[str]:
-        if word not in self._processes:
+        needed = NEEDED[word]
+        if needed not in self._processes:
             command = [sys.executable, __file__, word]
-            self._processes[word] = subprocess.Popen(
+            self._processes[needed] = subprocess.Popen(
                 command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
             )
-        return self._processes[word]
+        return self._processes[needed]
 
     def close(self) -> None:
         """End the processes."""
         for process in self._processes.values():
             process.communicate()
-
-
-@contextlib.contextmanager
-def watched() -> Iterator[Watched]:
-    """Have processes that run commands while the block runs."""
-    processes = Watched()
-    try:
-        yield processes
-    finally:
-        processes.close()
 
 
 def tolerable(outcome: Outcome) -> bool:
@@ -148,7 +139,7 @@ def _load(word: str) -> None:
     if word == "surface":
         with contextlib.suppress(ImportError):
             importlib.import_module("SurfaceTopography.IO")
-    if word == "run":
+    if "simulation" in NEEDED[word]:
         with contextlib.redirect_stdout(io.StringIO()):
             main(["check", "vsv", "--deep", "--quiet"])
 
