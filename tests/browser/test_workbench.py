@@ -266,7 +266,12 @@ def _drag(
     ("case", "key", "figure"),
     [
         (["journal-oil", "--set", "run.duration=0.01 s"], "joints.bearing.clearance.radial", "orbits"),
-        (["slider-crank", "--set", "run.duration=6 ms"], "joints.wrist.clearance.radial", "orbits"),
+        pytest.param(
+            ["slider-crank", "--set", "run.duration=6 ms"],
+            "joints.wrist.clearance.radial",
+            "orbits",
+            marks=pytest.mark.long,
+        ),
     ],
     ids=["journal", "mechanism"],
 )

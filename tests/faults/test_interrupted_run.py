@@ -10,7 +10,7 @@ import pytest
 from tribodyn.mechanisms.results import read
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.long)])
 def test_a_stopped_run_saves_what_it_has(number: signal.Signals, tmp_path: Path) -> None:
     command = [
         sys.executable,

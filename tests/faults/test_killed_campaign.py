@@ -108,6 +108,7 @@ def stopped_without_room(changes: dict[str, object], folder: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.long
 def test_killed_twice_it_ends_as_one_left_alone(tmp_path: Path) -> None:
     changes, chance = changed(wear__jump_limit=0.25), random.Random(19)
     undisturbed = left_alone(changes, tmp_path / "undisturbed")

@@ -55,6 +55,6 @@ def result() -> xr.Dataset:
 @pytest.mark.parametrize("module", MODULES)
 def test_examples_in_docstrings_run(module, result, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("tribodyn.report.figures._PER_SECOND", 5)  # frames of a film
+    monkeypatch.setattr("tribodyn.report.figures._PER_SECOND", 2)  # frames of a film
     found = doctest.testmod(importlib.import_module(module), extraglobs={"result": result})
     assert found.failed == 0 < found.attempted

@@ -409,7 +409,7 @@ def _changed(case: AnyCase, changes: Mapping[str, object], source: str) -> AnyCa
         plain = plain_path(path, keys)
         with faults.noted():
             if plain not in keys:
-                known = with_components(keys)
+                known = with_components({whole: keys[whole]} if (whole := plain[:-2]) in keys else {})
                 if plain not in known:
                     raise unknown(path, keys, keys_of(type(case)), source, len(faults.found))
                 plain, value = _vector(case, plain, value, known, new, source)

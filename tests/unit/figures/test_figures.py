@@ -90,8 +90,9 @@ def test_lines_are_told_apart_in_grey(name, runs):
 
 
 def test_draw_all_writes_png_of_sensible_size_and_pdf(make_result, tmp_path):
-    paths = draw_all(make_result(0.4), tmp_path / "figures")
-    assert [path.stem for path in paths] == [name for name in FIGURES if name != "clearance"]  # constant
+    some = slice(None, None, 4)
+    paths = draw_all(make_result(0.4), tmp_path / "figures", part=some)
+    assert [path.stem for path in paths] == [name for name in list(FIGURES)[some] if name != "clearance"]
     for path in paths:
         head = path.read_bytes()[:24]
         assert head.startswith(b"\x89PNG")

@@ -182,7 +182,7 @@ def test_values_that_cannot_be_consistent_end_the_run():
     assert "not consistent" in (integrate(problem).failure or "")
 
 
-@pytest.mark.parametrize("own", [False, True])
+@pytest.mark.parametrize("own", [pytest.param(False, marks=pytest.mark.long), True])
 def test_the_equation_that_does_not_hold_is_named_among_many_equations(own):
     def unsolvable(t, y, data, memory, f):
         rhs(t, y, data, memory, f)

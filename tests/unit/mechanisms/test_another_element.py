@@ -224,6 +224,7 @@ def test_a_part_of_the_manual_takes_one_file_and_at_most_one_line(part: str, fai
     assert part not in failed, failed[part]
 
 
+@pytest.mark.long
 def test_tests_over_lists_hold_for_the_parts_and_find_a_wrong_one(place: Path) -> None:
     which = "Belt or Stokes or ball-on-plane or oval-bore or wrong-bore or exponential"
     command = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", which)

@@ -15,7 +15,7 @@ ARM = """
 case = "mechanism"
 gravity = "0, -9.81, 0 m/s^2"
 run.analysis = "kinematic"
-run.positions = 12
+run.positions = 4
 run.duration = "0.2 s"
 [bodies]
 arm = { mass = "1 kg", centre = "100, 0, 0 mm", inertia = "1e-3, 1e-2, 1e-2 kg m^2" }

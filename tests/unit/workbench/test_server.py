@@ -54,6 +54,9 @@ async def test_no_route_answers_who_is_not_our_page() -> None:
             for headers, plain, socket in combinations(host):
                 for secret in (host.secret, host.secret[:-1], f"{host.secret}&{host.secret}", ""):
                     path, right = f"{route}?{secret}", secret == host.secret
+                    # Where two things are wrong, one route stands for all.
+                    if not (plain or right or route == "/socket"):
+                        continue
                     status = (await host.get(path, headers)).code
                     assert (status != 403) == (plain and (right or route in SHOWN)), (path, headers)
                     if not (socket and (right or route in SHOWN)):
