@@ -207,6 +207,17 @@ def test_a_lever_hangs_where_its_spring_balances_its_weight(real: bool) -> None:
     assert "balance to" in result.attrs["notes"]
 
 
+def test_a_lever_hangs_there_too_where_friction_of_its_rail_is_to_hold_at_rest() -> None:
+    """Its way to there is some ten thousand times what friction yields."""
+    drawn = lever_on_a_spring(real=False, stiffness="2 N m/rad").friction(
+        "rub", joint="rail", normal_load="1 N"
+    )
+    result = td.simulate(drawn.case().replace({"friction.rest": True}))
+    assert result.attrs["failure"] == ""
+    exact = brentq(lambda a: moment_of_weight(a) - 2.0 * a, -2.0, 1.0)
+    assert of(result, "output_value", "turn") == pytest.approx(exact, abs=1e-8)
+
+
 def test_a_cubic_spring_without_stiffness_at_its_start_holds_a_lever() -> None:
     angles = np.linspace(-3.0, 3.0, 601)
     torque = {

@@ -109,7 +109,7 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
     "seeds",
     [
         pytest.param((28,), id="one"),
-        pytest.param((1, 2, 3, 7, 8, 9, 20, 22, 23, 24, 36, 48), id="more", marks=pytest.mark.long),
+        pytest.param((1, 2, 3, 7, 8, 9, 20, 22, 23, 24, 36, 48, 101), id="more", marks=pytest.mark.long),
     ],
 )
 def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seeds):
@@ -120,13 +120,15 @@ def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest
         assert np.mean(differences) < SAME, seed
 
 
-def test_a_note_says_where_friction_of_shafts_that_walk_turns_less_sharply(monkeypatch) -> None:
+@pytest.mark.parametrize("sharpest", [50.0, 500.0])
+def test_a_note_says_where_friction_of_shafts_that_walk_turns_less_sharply(monkeypatch, sharpest) -> None:
     """Where searches do not end with the sharpest friction, neither at once nor from less sharp ones."""
     newton = start._newton
 
     def dull(loads: LedLoads, *keys: float) -> tuple[int, float, float]:
         steps, moved, soft = newton(loads, *keys)
-        return steps, moved if loads.blunt or not loads.blurs else math.inf, soft
+        slips = loads.data.contact.surfaces["slip_velocity"] / loads._slips_given
+        return steps, moved if np.min(slips) > sharpest or not loads.blurs else math.inf, soft
 
     monkeypatch.setattr(start, "_newton", dull)
     changes = {"run.analysis": "static", "run.directions": "both", "run.positions": "4"}

@@ -19,7 +19,7 @@ from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanism.assembly.assembly import Assembly
-from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.closing import SIZE, System
 from tribodyn.mechanism.assembly.decompositions import null_space
 from tribodyn.mechanism.assembly.mechanism_problem import length_scale, mechanism_problem
 from tribodyn.mechanism.assembly.passage import closes, placed
@@ -79,7 +79,9 @@ class Linearised:
         self.system.data = held(self.system.data, times)
         self._rank = 6 * self.system.n - assembly.freedoms
         self.system.set_rank(self._rank)
-        self._units = np.tile(np.repeat([length_scale(assembly), 1.0], 3), self.system.n)
+        # Without clearances freedoms go far, whatever friction resolves.
+        length = length_scale(assembly) if assembly.model.clearances else 0.1 * SIZE
+        self._units = np.tile(np.repeat([length, 1.0], 3), self.system.n)
 
     def at(self, t: float, state: FloatArray) -> LinearEquations:
         """Return the equations at a time of the drives [s] and a state (13 n,), whose velocities are zero."""

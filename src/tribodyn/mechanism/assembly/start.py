@@ -89,21 +89,19 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
 
 
 def _eased(loads: JointLoads, soft: float, floor: float, least: float) -> tuple[int, float, float]:
-    """Make steps as by :func:`_newton`; where they do not end, anew as friction turns ever more sharply.
-
-    It stays as it was when they ended last where they do not end with friction as sharp as it is.
-    """
-    kept, before = loads.kept(), 1.0
-    found = _newton(loads, soft, floor, least)
+    """Make steps as by :func:`_newton`; where they do not end, anew as friction turns ever more sharply."""
+    kept = ended = loads.kept()
+    found, blunt = _newton(loads, soft, floor, least), 0.0
     if not math.isinf(found[1]):
         return found
     for factor in loads.blurs:
         loads.restore(kept, factor)
         sharper = _newton(loads, found[2], floor, least)
-        if factor == loads.blurs[-1] and math.isinf(sharper[1]) and not math.isinf(found[1]):
-            loads.restore(kept, before)
-            break
-        found, kept, before = sharper, loads.kept(), factor
+        kept = loads.kept()
+        if not math.isinf(sharper[1]):
+            found, ended, blunt = sharper, kept, factor
+    if blunt:  # as it was when they ended last
+        loads.restore(ended, blunt)
     return found
 
 
