@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 
 from tribodyn.integrate import MEBDF
 
-FEW, MANY = 60, 5000
+FEW, MANY = 30, 5000
 MOST_STEPS = 100
 FAULTS = ("none", "nan", "inf", "raises", "shape", "jump", "huge")
 

@@ -64,25 +64,6 @@ def assert_nothing_of_another_run(folder: Path) -> None:
     assert all(picture.stat().st_mtime >= made for picture in pictures)
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[tuple[int, str]]]:
-    """Return the folder of two runs started at once, with status and message of each."""
-    folder = tmp_path_factory.mktemp("both") / "out"
-    both = [started(folder), started(folder)]
-    said = [process.communicate(timeout=300)[1] for process in both]
-    return folder, [(process.returncode, text) for process, text in zip(both, said, strict=True)]
-
-
-def test_of_two_runs_into_one_folder_one_is_refused(made: tuple[Path, list[tuple[int, str]]]) -> None:
-    folder, outcomes = made
-    (done, _), (refused, message) = sorted(outcomes)
-    assert (done, refused) == (0, 2)
-    assert "another tribodyn is writing results there" in message
-    assert message.count("\n") == 1
-    assert sorted(path.name for path in folder.iterdir()) == WHOLE
-    assert_one_run(folder)
-
-
 def pause(chance: random.Random, longest: float) -> None:
     """Wait for a part of ``longest``; what pytest shows of a failure says how long it was."""
     seconds = chance.uniform(0.0, longest)
@@ -105,8 +86,10 @@ def until_drawing(process: subprocess.Popen[str]) -> None:
         assert process.poll() is None
 
 
-def test_a_killed_run_leaves_whole_files_and_the_next_one_succeeds(tmp_path: Path) -> None:
-    folder, chance = tmp_path / "out", random.Random(31)
+@pytest.fixture(scope="module")
+def killed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a run killed early, while it saved and while it drew: all its files are whole."""
+    folder, chance = tmp_path_factory.mktemp("killed") / "out", random.Random(31)
 
     def until_saving(process: subprocess.Popen[str]) -> None:
         while not list(folder.glob(".*.part")) and process.poll() is None:
@@ -120,10 +103,24 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_succeeds(tmp_path: Pat
     kill(folder, until_saving)
     kill(folder, while_drawing)
     assert_nothing_of_another_run(folder)
-    process = started(folder)
-    assert process.communicate(timeout=300)
-    assert process.returncode == 0
-    assert set(WHOLE) <= {path.name for path in folder.iterdir()}
+    return folder
+
+
+@pytest.fixture(scope="module")
+def made(killed: Path) -> tuple[Path, list[tuple[int, str]]]:
+    """Return the folder of two runs started at once where one was killed, with status and message of each."""
+    both = [started(killed), started(killed)]
+    said = [process.communicate(timeout=300)[1] for process in both]
+    return killed, [(process.returncode, text) for process, text in zip(both, said, strict=True)]
+
+
+def test_of_two_runs_after_a_killed_one_one_is_refused(made: tuple[Path, list[tuple[int, str]]]) -> None:
+    folder, outcomes = made
+    (done, _), (refused, message) = sorted(outcomes)
+    assert (done, refused) == (0, 2)
+    assert "another tribodyn is writing results there" in message
+    assert message.count("\n") == 1
+    assert sorted(path.name for path in folder.iterdir()) == WHOLE
     assert_one_run(folder)
 
 

@@ -11,6 +11,7 @@ import os
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -81,6 +82,7 @@ OLDEST = {
 }
 
 
+@cache
 def numbers(script: str, *arguments: str, **environment: str) -> dict[str, object]:
     """Return all numbers of a run in a process of its own; as text they read back exactly."""
     command = [sys.executable, "-c", script, *arguments]
