@@ -108,8 +108,8 @@ def test_a_dynamic_run_says_where_its_friction_is_not_developed(speed: str, note
 @pytest.mark.parametrize(
     "seeds",
     [
-        pytest.param((28,), id="one"),
-        pytest.param((1, 2, 3, 7, 8, 9, 20, 22, 23, 24, 36, 48, 101), id="more", marks=pytest.mark.long),
+        pytest.param((20,), id="one"),
+        pytest.param((1, 2, 3, 7, 8, 9, 22, 23, 24, 28, 36, 48, 101), id="more", marks=pytest.mark.long),
     ],
 )
 def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest(seeds):

@@ -57,6 +57,7 @@ LASTING = (
     "joint_kernel",
     "kinks",
     "long_run",
+    "options",
     "random_machines",
     "ring",
     "static_machines",

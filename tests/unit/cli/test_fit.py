@@ -9,14 +9,14 @@ import tribodyn as td
 from tribodyn.cli.main import main
 
 MASS = 0.31
-CHANGES = ["--set", "run.duration=2 ms", "--set", "contact.law=ke"]
+CHANGES = ["--set", "run.duration=1 ms", "--set", "contact.law=ke"]
 
 
 @pytest.fixture
 def data(tmp_path):
-    changes = {"run.duration": "2 ms", "contact.law": "ke", "bodies.journal.mass": f"{MASS} kg"}
+    changes = {"run.duration": "1 ms", "contact.law": "ke", "bodies.journal.mass": f"{MASS} kg"}
     run = td.simulate(td.load_case("journal-dry").replace(changes))
-    times = np.linspace(1e-4, 1.8e-3, 30)
+    times = np.linspace(1e-4, 9e-4, 30)
     values = np.interp(times, run["time"].values, run["displacement"].values[:, 0, 0]) * 1e6
     path = tmp_path / "run.csv"
     rows = "\n".join(f"{t * 1e3:.6f}, {v:.9f}" for t, v in zip(times, values, strict=True))

@@ -94,7 +94,8 @@ class Caller:
 
 
 @pytest.fixture(
-    scope="module", params=["vsv", "slider-crank", pytest.param("journal-dry", marks=pytest.mark.long)]
+    scope="module",
+    params=["vsv", *(pytest.param(name, marks=pytest.mark.long) for name in ("slider-crank", "journal-dry"))],
 )
 def case(request: pytest.FixtureRequest) -> Case:
     """Return a case whose equations are loaded."""

@@ -72,7 +72,7 @@ def smooth(**more: object) -> Case:
     """Return a wear campaign on surfaces so smooth that the impacts press them through each other."""
     grid = {"solver.grid.theta": 48, "solver.grid.z": 8}
     surfaces = {f"surfaces.{body}.roughness": "0.03 um" for body in ("trunnion", "bushing")}
-    run = {"run.cycles": 1, "wear.cycles": 300, "loads.air_moment": "3 N m"}
+    run = {"run.cycles": 1, "wear.cycles": 200, "loads.air_moment": "3 N m"}
     return load_case("vsv").replace(grid | surfaces | run | more)
 
 
@@ -84,13 +84,13 @@ def test_an_interrupted_campaign_goes_on_with_the_elastic_bodies_that_it_had(tmp
 
     def late() -> bool:
         """Tell whether the second run, whose progress begins anew, is half through."""
-        return any(b < a for a, b in pairwise(seen)) and seen[-1] > 150.0
+        return any(b < a for a, b in pairwise(seen)) and seen[-1] > 100.0
 
     stopped = td.simulate(smooth(), checkpoint=kept, progress=seen.append, stop=late)
     assert stopped.attrs["failure"] == "interrupted"
     again: list[float] = []
     resumed = td.simulate(smooth(), checkpoint=kept, progress=again.append)
-    assert again[0] > 75.0
+    assert again[0] > 50.0
     assert resumed.attrs["notes"] == whole.attrs["notes"]
     np.testing.assert_array_equal(resumed["wear_depth"], whole["wear_depth"])
     assert resumed.attrs["rows_sha256"] == whole.attrs["rows_sha256"]

@@ -32,12 +32,12 @@ def errors_of(inputs: FloatArray) -> FloatArray:
 
 
 def test_quantiles_lie_in_the_intervals_of_full_draws() -> None:
-    """20,000 builds of fresh copies against builds of 4,000 copies that are drawn again and again."""
+    """10,000 builds of fresh copies against builds of 4,000 copies that are drawn again and again."""
     random = np.random.default_rng(0)
     inputs = norm.ppf(SAMPLERS["lhs"](4000, 2, 0))
     laws = 2 * [lambda random, size: random.standard_normal(size)]
-    drawn = draw(Copies(laws, inputs, errors_of(inputs)), N, 200_000, random)
-    fresh = errors_of(random.standard_normal((20_000 * N, 2))).reshape(20_000, N, 6)
+    drawn = draw(Copies(laws, inputs, errors_of(inputs)), N, 100_000, random)
+    fresh = errors_of(random.standard_normal((10_000 * N, 2))).reshape(10_000, N, 6)
     full = np.sort(numbers_of_builds(fresh), axis=0)
     # Of order statistics, the binomial interval of 95 %.
     level = LEVELS[-1]
@@ -101,7 +101,7 @@ def test_what_scatters_is_refused_where_copies_have_their_values() -> None:
 def test_copies_alone_are_those_of_the_ring_that_holds_them(tmp_path: Path) -> None:
     """The template with rigid levers: alone and together copies differ by what the ring gives way."""
     case = parse_case(TEXT.replace("[outputs.vane]", f"{RING}[outputs.vane]"), "test").replace(
-        {"run.duration": "0.75 s", "run.output_interval": "20 ms", "pattern.vanes.count": 3}
+        {"run.duration": "0.5 s", "run.output_interval": "20 ms", "pattern.vanes.count": 3}
     )
     found = builds(case, copies=12, draws=500, coupled=2, directory=tmp_path, workers=0)
     assert (tmp_path / "alone" / "points.jsonl").read_text(encoding="utf-8").count("\n") == 12

@@ -83,11 +83,11 @@ def test_one_run_that_the_machine_held_up_does_not_end_a_drag():
 
 
 def test_of_cases_whose_copies_scatter_a_page_can_save_histograms_of_builds(monkeypatch):
-    monkeypatch.setattr(work, "_COPIES", 6)
+    monkeypatch.setattr(work, "_COPIES", 4)
     monkeypatch.setattr(work, "_DRAWS", 400)
     text = template("vsv-ring").replace('elastic = "beam"\n', "")
     origin = Origin(
-        parse_case(text, "ring").replace({"pattern.vanes.count": 3, "run.duration": "0.4 s"}), "ring"
+        parse_case(text, "ring").replace({"pattern.vanes.count": 3, "run.duration": "0.2 s"}), "ring"
     )
     assert "builds.svg" in description(origin)["downloads"]
     assert "builds.svg" not in description(Origin(load_case("vsv"), "vsv"))["downloads"]
