@@ -20,6 +20,7 @@ from tribodyn.core.quoting import brief
 
 _ARITHMETIC: Final = Context(prec=34)
 _LONGEST: Final = 100
+_KEPT: Final = 4096  #: Quantities that are kept as numbers: points of a sweep have the same but for a few.
 _NUMBER: Final = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 _FACTOR: Final = r"(?:1|[A-Za-z][A-Za-z_]*(?:(?:\^|\*\*)-?[1-9](?![0-9]))?)"
 _PRODUCT: Final = rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*"
@@ -113,6 +114,7 @@ def unit_of(text: str) -> str:
     return _split(text)[1]
 
 
+@lru_cache(_KEPT)
 def to_si(text: str, like: str) -> float:
     """Convert a quantity to its SI value.
 

@@ -132,19 +132,6 @@ def _of_one(name: str) -> Any:
     return _function
 
 
-def _of_two(name: str) -> Any:
-    """Return the same of two."""
-
-    @intrinsic
-    def _function(typing: Any, a: Any, b: Any) -> Any:
-        def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-            return _called(name, builder, arguments)
-
-        return _lanes(_lanes, _lanes), generate
-
-    return _function
-
-
 @intrinsic
 def _above(typing: Any, a: Any, b: Any, x: Any, y: Any) -> Any:
     def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
@@ -262,5 +249,3 @@ def _rows_at(typing: Any, array: Any, places: Any, place: Any) -> Any:
 _square_root: Final = _of_one("sqrt")
 _absolute: Final = _of_one("fabs")
 _floor: Final = _of_one("floor")
-_larger: Final = _of_two("maximum")
-_smaller: Final = _of_two("minimum")

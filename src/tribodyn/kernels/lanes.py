@@ -42,10 +42,7 @@ zeros: Final = _either("zeros", lambda: np.zeros(WIDTH))  #: Return four zeros, 
 spread: Final = _either("spread", lambda number: np.full(WIDTH, number))  #: Return a number in all lanes.
 square_root: Final = _either("square_root", np.sqrt)
 absolute: Final = _either("absolute", np.abs)
-floor: Final = _either("floor", np.floor)
-larger: Final = _either("larger", lambda a, b: np.maximum(a, b))
-#: Functions of each lane; of two lanes one of which is not a number, the larger and the smaller are none.
-smaller: Final = _either("smaller", lambda a, b: np.minimum(a, b))
+floor: Final = _either("floor", np.floor)  #: Functions of each lane.
 #: Return ``x`` in lanes in which ``a`` > ``b``, otherwise ``y``, also where one of them is not a number.
 above: Final = _either("above", lambda a, b, x, y: np.where(a > b, x, y))
 store_places: Final = _either("store_places", _put)

@@ -6,6 +6,7 @@ from typing import Final
 from mebdf.arrays import FloatArray, FloatMatrix
 from tribodyn.core.quantities import Record
 from tribodyn.kernels.jit import entry, kernel
+from tribodyn.kernels.lanes import WIDTH, load, spread, store
 from tribodyn.kernels.mechanism.data import NONE, Now, Parts
 from tribodyn.kernels.mechanism.solution import set_compliance
 
@@ -77,6 +78,7 @@ def choose_rows(parts: Parts, now: Now, matrix: FloatMatrix) -> None:
     ``matrix`` (n_rows, n_rows) is work space. Most of its entries are zero: few rows share bodies.
     """
     n = matrix.shape[0]
+    whole = n - n % WIDTH
     matrix[:] = 0.0
     for k in range(parts.couplings.size):
         for other in range(parts.couplings.size):
@@ -102,9 +104,11 @@ def choose_rows(parts: Parts, now: Now, matrix: FloatMatrix) -> None:
         for i in range(n):
             if i != row and matrix[i, row] != 0.0:
                 factor = matrix[i, row] / matrix[row, row]
-                for j in range(n):
-                    if j != row:
-                        matrix[i, j] -= factor * matrix[row, j]
+                for j in range(0, whole, WIDTH):
+                    share = spread(factor) * load(matrix, n * row + j)
+                    store(matrix, n * i + j, load(matrix, n * i + j) - share)
+                for j in range(whole, n):
+                    matrix[i, j] -= factor * matrix[row, j]
         for i in range(n):
             matrix[i, row] = matrix[row, i] = 0.0
     for k in range(parts.couplings.size):

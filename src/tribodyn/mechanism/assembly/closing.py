@@ -250,8 +250,8 @@ class System:
 
     def freedoms(self, rank: int) -> FloatArray:
         """Return displacements that leave the joints closed, ways over the size, shape (n, 6 n_bodies)."""
-        if not self.rows:
-            return np.eye(6 * self.n)
+        if rank in (0, 6 * self.n):  # all of them, or none
+            return np.eye(6 * self.n)[rank:]
         return null_space(self.over_sizes(self.matrix()), rank).T
 
     def time_to_move(self, change: float) -> float:

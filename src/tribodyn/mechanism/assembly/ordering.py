@@ -83,10 +83,10 @@ def elimination_order(
         neighbours[b].add(a)
     of_node = {r.node: r for r in rows}
     anchors, order, left = _Anchors(n_bodies), [], set(range(n_nodes))
+    laws = {k for k in left if k >= n_bodies and k not in of_node}
     while left:
-        laws = [k for k in left if k >= n_bodies and k not in of_node]
-        allowed = laws or [k for k in left if k < n_bodies or anchors.allows(of_node[k])]
-        node = min(allowed, key=lambda k: (len(neighbours[k]), k < n_bodies, k))
+        nearest = sorted(laws & left or left, key=lambda k: (len(neighbours[k]), k < n_bodies, k))
+        node = next(k for k in nearest if k < n_bodies or k in laws or anchors.allows(of_node[k]))
         order.append(node)
         left.discard(node)
         if node < n_bodies:

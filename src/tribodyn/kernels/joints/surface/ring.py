@@ -55,7 +55,7 @@ PRESSURE: Final = 7 * WIDTH  #: P_c [Pa].
 POSITION: Final = 8 * WIDTH
 SPEED: Final = 9 * WIDTH
 RIGID: Final = 10 * WIDTH
-#: Of reports: place in the whole table, |s| [m/s], P_k [Pa] and the stored energy over σ [Pa].
+#: Of reports: place in the whole table, |s| [m/s] where slips count, P_k [Pa], the stored energy over σ [Pa].
 ENERGY: Final = 11 * WIDTH
 FOLLOWING: Final = 8 * WIDTH
 PER_SPEED: Final = 9 * WIDTH
@@ -151,7 +151,7 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
     zero, one, v_min = zeros(), spread(1.0), spread(surface.minimum_entry_velocity)
     scale, shift = surface.inverse_step / surface.roughness, 1.0 - surface.h_first * surface.inverse_step
     last, least = float(surface.last_interval - surface.first_interval - 1), slip_square(surface)
-    bends = does_bend(surface)
+    bends, slides = does_bend(surface), surface.along != 0.0
     scales, shifts, last_one, least_square = spread(scale), spread(shift), spread(last), spread(least)
     for k in range(rings_from(surface, r)):
         row, motion = data.rows[r + k], motion_of(block, k)
@@ -189,7 +189,8 @@ def fill_groups(data: SurfaceData, surface: Record, memory: SurfaceMemory, r: in
                 store(block, at + PER_SPEED, per_speed)
             if purpose == REPORT:
                 store(block, at + POSITION, position)
-                store(block, at + SPEED, square_root(square))
+                if slides:
+                    store(block, at + SPEED, square_root(square))
             at += STRIDE
     return at
 

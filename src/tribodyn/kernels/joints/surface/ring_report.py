@@ -43,19 +43,7 @@ from tribodyn.kernels.joints.surface.ring_wrench import (
     with_ring,
     with_traction,
 )
-from tribodyn.kernels.lanes import (
-    WIDTH,
-    above,
-    absolute,
-    larger,
-    load,
-    parts,
-    smaller,
-    spread,
-    store,
-    total,
-    zeros,
-)
+from tribodyn.kernels.lanes import WIDTH, above, absolute, load, parts, spread, store, total, zeros
 
 #: Energy over σ, power of damping and of friction over −μ, areas in contact, that pull and are plastic, and
 #: the power over σ of a contact that changes its extent on the energy.
@@ -85,8 +73,11 @@ def add_rows(data: SurfaceData, s: int, memory: SurfaceMemory, station: Record) 
     _put_terms(surface, rest[2], out)
     a, b, c, d = parts(rest[3])
     out.p_max = jit.larger(jit.larger(a, b), jit.larger(c, d))
+    if math.isnan(scratch.normal[0]):
+        out.p_max = math.nan
     a, b, c, d = parts(rest[4])
-    return jit.smaller(jit.smaller(a, b), jit.smaller(c, d))
+    nearest = jit.smaller(jit.smaller(a, b), jit.smaller(c, d))
+    return math.nan if math.isnan(scratch.rigid_load) else nearest
 
 
 @inlined
@@ -124,8 +115,10 @@ def _with_rings(
             plastic = plastic + above(hardness, p, zero, one)
             if elastic:
                 widening = widening + load(block, group + WIDENING)
-            highest = larger(highest, load(block, group + PEAK) if elastic else p)
-            nearest = smaller(nearest, position)
+            # What is not a number gets lost here; sums know of it.
+            peak = load(block, group + PEAK) if elastic else p
+            highest = above(peak, highest, peak, highest)
+            nearest = above(nearest, position, position, nearest)
             store(memory.sliding, kept, p * (spin if spins else load(block, group + SPEED)))
             kept += WIDTH
         ring, phi, motion = one_ring(rings, r + k), memory.scratch.tilt.phi, motion_of(block, k)
