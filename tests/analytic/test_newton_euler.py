@@ -46,16 +46,12 @@ def evaluate(vsv, t, y, direction, entry):
     return SimpleNamespace(seen=seen, projected=rate[4:], moment=projected_moment)
 
 
-def states(vsv, count):
-    return [draw(vsv, seed) for seed in range(count)]
-
-
 @pytest.mark.parametrize("friction", ["traction", "moment"])
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_projected_equations_equal_the_full_system(make_vsv, formulation, friction):
     vsv = make_vsv(formulation, friction=friction)
     lifted = 0
-    for state in states(vsv, 60):
+    for state in (draw(vsv, seed) for seed in range(60)):
         found = evaluate(vsv, *state)
         assert found.seen.M_d == pytest.approx(found.moment, rel=AGREE, abs=AGREE * vsv.air.moment)
         lifted += found.seen.F_cz == 0.0

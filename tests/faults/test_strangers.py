@@ -68,7 +68,10 @@ def family(shared: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[l
 
 def listening(family: list[psutil.Process]) -> list[str]:
     """Return where processes can be talked to: TCP ports, and sockets by their path or, after an @, name."""
-    return [*ports(own := sockets(family)), *names(own)]
+    return [
+        *ports(own := sockets(family)),
+        *[row[7] for row in rows("unix") if row[6] in own and int(row[3], 16) & UNIX_LISTENS],
+    ]
 
 
 def sockets(family: list[psutil.Process]) -> set[str]:
@@ -88,10 +91,6 @@ def rows(table: str) -> list[list[str]]:
 def ports(inodes: set[str]) -> list[str]:
     found = [row for table in ("tcp", "tcp6") for row in rows(table) if row[9] in inodes]
     return [str(int(row[1].rpartition(":")[2], 16)) for row in found if row[3] == TCP_LISTENS]
-
-
-def names(inodes: set[str]) -> list[str]:
-    return [row[7] for row in rows("unix") if row[6] in inodes and int(row[3], 16) & UNIX_LISTENS]
 
 
 def test_a_stranger_is_refused_wherever_a_sweep_listens(family: list[psutil.Process]) -> None:

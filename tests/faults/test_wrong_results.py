@@ -34,14 +34,10 @@ def with_values(dataset: xr.Dataset, name: str, values: Any, dims: Any = None) -
 
 def _rebuilt(dataset: xr.Dataset, variables: dict[Any, xr.Variable]) -> xr.Dataset:
     """Return a dataset of any variables: what was a coordinate stays one where it can."""
-    coords = [name for name in dataset.coords if name in variables and not _own(name, variables[name])]
+    coords = [name for name in dataset.coords if name in variables and name not in variables[name].dims]
     return xr.Dataset({k: v.copy(deep=False) for k, v in variables.items()}, attrs=dataset.attrs).set_coords(
         [name for name in coords if name in variables]
     )
-
-
-def _own(name: Any, variable: xr.Variable) -> bool:
-    return name in variable.dims
 
 
 def filled(value: Any) -> Mutation:

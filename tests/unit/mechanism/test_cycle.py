@@ -6,13 +6,7 @@ from tests.unit.mechanism.four_bar import four_bar
 from tribodyn.core.errors import InputError
 from tribodyn.core.remembered import Remembered
 from tribodyn.mechanism.assembly import passage as cycle
-from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanism.system import MechanismSystem
-
-
-def said(mechanism: Mechanism) -> str:
-    """Return what the check of a mechanism says."""
-    return " ".join(MechanismSystem(mechanism.case()).check())
 
 
 def test_mechanisms_are_led_through_again_where_ideal_joints_or_drives_differ(
@@ -33,4 +27,4 @@ def test_mechanisms_are_led_through_again_where_ideal_joints_or_drives_differ(
         MechanismSystem(case.replace(changes)).check()
     assert led == [0.02, 0.02, 0.03]
     with pytest.raises(InputError, match="motor has nothing to drive"):
-        said(four_bar(1e-3))
+        " ".join(MechanismSystem(four_bar(1e-3).case()).check())

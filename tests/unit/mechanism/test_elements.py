@@ -5,7 +5,7 @@ The ground of each example is a free body here, so that reactions on all bodies 
 
 import re
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -98,14 +98,10 @@ def row_of(system: System) -> FloatArray:
     return row
 
 
-def first_leg(system: System) -> Any:
-    return system.now.couplings[system.model.first_leg]
-
-
 @OVER_ALL
 def test_jacobian_times_velocities_is_the_rate_of_the_residual(kind: type[ElementKeys]) -> None:
     system = disturbed(kind, 0.1)
-    bodies, now = system.now.bodies, first_leg(system)
+    bodies, now = system.now.bodies, system.now.couplings[system.model.first_leg]
     velocity = np.hstack([bodies.v, bodies.w]).copy()
     # The velocity of the mass centre is global, the turn that `move` takes is about the axes of the body.
     rate = float(np.sum(row_of(system) * velocity))
