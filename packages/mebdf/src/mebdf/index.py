@@ -13,7 +13,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgWarning, solve
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import splu
 
@@ -134,17 +133,10 @@ def _solution(matrix: Any, sides: FloatArray) -> FloatArray | None:
         else:
             dense = matrix.toarray() if is_sparse(matrix) else np.asarray(matrix)
             with np.errstate(all="ignore"):
-                found = _lu_solution(scale[:, None] * dense, scale[:, None] * sides)
+                found = np.linalg.solve(scale[:, None] * dense, scale[:, None] * sides)
     except (RuntimeError, np.linalg.LinAlgError):
         return None
     return found if np.isfinite(found).all() else None
-
-
-def _lu_solution(matrix: FloatArray, sides: FloatArray) -> FloatArray:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", LinAlgWarning)  # the condition grows with the frequency
-        found: FloatArray = solve(matrix, sides)
-    return found
 
 
 def _row_norms(matrix: Any) -> FloatArray:
