@@ -111,6 +111,8 @@ def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:
 def _lines(
     value: Any, key: Key, expression: Any, own: Collection[str], origins: Mapping[str, str], comments: bool
 ) -> Iterator[str]:
+    if value is None and not comments:
+        return
     if value is not None and expression is not None and (written := _as_toml(expression)) != key.write(value):
         key = replace(key, description=f"{key.write(value)}; {key.description}")
         line = f"{key.name} = {written}"
@@ -119,7 +121,7 @@ def _lines(
     else:
         line = f"# {key.name} = {_example(key)}" if value is None else f"{key.name} = {key.write(value)}"
     if not comments:
-        yield from [] if value is None else [line]
+        yield line
     else:
         has_origin = key.path in origins
         changed = not has_origin and key.default is not None and value != key.default
