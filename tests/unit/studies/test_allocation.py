@@ -90,7 +90,7 @@ def test_cheapest_steps_are_those_of_a_full_enumeration(linear, tmp_path, limit,
 def test_curves_give_equal_cost_of_a_little_more_of_the_limit(linear, tmp_path, monkeypatch):
     """At the optimum of costs a/w the width is as a^(1/3), by a multiplier of Lagrange."""
     linear(grams)
-    monkeypatch.setattr("tribodyn.studies.choices._DRAWN", 2**14)
+    monkeypatch.setattr("tribodyn.studies.quadratic_model._DRAWN", 2**14)
     factors = (1.0, 8.0, 27.0)
     more = "cost = {{a = {}, k = 1.0, least = '1 g', most = '200 g'}}"
     text = "\n".join(
