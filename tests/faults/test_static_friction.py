@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from benchmarks.static_machines import SAME, loop
+from benchmarks.static_machines import SAME, STATIC, loop, swinging
 from tribodyn.mechanism.analyses.led_loads import LedLoads
+from tribodyn.mechanism.analyses.statics import _snaps
 from tribodyn.mechanism.assembly import start
 from tribodyn.mechanisms.results import summarise
 from tribodyn.results.reading import column
@@ -118,6 +119,20 @@ def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest
         ended, differences = loop(seed)
         assert ended == "complete", seed
         assert np.mean(differences) < SAME, seed
+
+
+def test_a_snap_is_ten_times_as_far_as_before_and_a_tenth_of_the_widest_clearance() -> None:
+    rests, wide = np.zeros((2, 6)), 1e-4
+    for far, steps, snaps in ((2e-5, 30.0, True), (2e-5, 8.0, False), (0.5e-5, 30.0, False)):
+        before, way = (np.array([[0.0] * 6, [0.0, x, 0.0, 9.0, 9.0, 9.0]]) for x in (far / steps, far))
+        assert _snaps([rests, before, before + way], wide) == snaps
+
+
+@pytest.mark.long
+def test_a_note_says_where_a_shaft_snaps_and_inertia_decides_where_it_ends() -> None:
+    assert loop(11)[0].startswith("inertia decides")
+    result = td.simulate(swinging(11).replace(STATIC))
+    assert "at 1 positions a shaft snaps to another place" in result.attrs["notes"]
 
 
 @pytest.mark.parametrize("sharpest", [50.0, 500.0])

@@ -45,6 +45,18 @@ _CREEP: Final = 1.0e-7  #: Slip velocity at which friction is developed, over th
 _NEAR: Final = 0.1
 #: Square of the way of a body, over that of the one that goes farthest, which counts as none.
 _GOES: Final = 1.0e-4
+#: Way of a body in one position over that in the one before, and over the widest clearance, that is a snap.
+_SUDDENLY: Final = 10.0
+_PART: Final = 0.1
+_JUMPS: Final = (
+    "shafts were put into equilibrium without friction on their ways from the position before: hysteresis "
+    "may jump there"
+)
+_BLUNT: Final = "shafts that walk balance with friction that turns less sharply than elsewhere"
+_SNAPS: Final = (
+    "a shaft snaps to another place: where it ends in slow motion depends on its inertia, too, and so may "
+    "the loop after it"
+)
 _NO_COSINE: Final = 1.0e-6  #: Least square of the cosine of half a rotation.
 
 
@@ -93,12 +105,7 @@ def find_equilibria(
             "freedoms that drives leave rest where loads and springs balance: inertia forces along them, as "
             "those that lift the balls of a governor, are left out; a dynamic run has them"
         )
-    if equilibria.jumps:
-        words = "shafts were put into equilibrium without friction on their ways from the position before"
-        notes.append(f"at {equilibria.jumps} positions {words}: hysteresis may jump there")
-    if equilibria.blunt:
-        words = "shafts that walk balance with friction that turns less sharply than elsewhere"
-        notes.append(f"at {equilibria.blunt} positions {words}")
+    notes += [f"at {number} positions {words}" for words, number in equilibria.told.items() if number]
     return replace(found, notes=tuple(notes) if found.t.size else ())
 
 
@@ -168,10 +175,8 @@ class Equilibria:
         Slip velocity at which friction is developed [m/s].
     unbalance
         Largest load so far that does not balance, over all loads.
-    jumps
-        Number of positions so far where no equilibrium near the last one was found, with friction on the way.
-    blunt
-        Number of positions so far that are in equilibrium with larger slip velocities only.
+    told
+        Number of positions so far that a note tells of, by its words.
     MUST_REST
         Whether ideal joints must be at rest, too.
     """
@@ -187,7 +192,9 @@ class Equilibria:
         self._ways: list[FloatArray] = []
         run = assembly.model.case.run
         asks = assembly.model.case.friction.rest or run.directions == "both"
-        self._walks, self.jumps, self.blunt = asks and run.analysis == "static", 0, 0
+        self._walks = asks and run.analysis == "static"
+        self.told = dict.fromkeys((_JUMPS, _BLUNT, _SNAPS), 0)
+        self._wide = max((real.shape.clearance for real in assembly.model.clearances.values()), default=0.0)
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank = counterpart.independence()[0]
         self.slip = _CREEP * fastest(self._ideal[..., VELOCITY:], counterpart.size) or math.inf
@@ -210,8 +217,9 @@ class Equilibria:
                 if self._walks and len(ways) > 2 and _stops(ways, self._loads.units.reshape(-1, 6)):
                     self._ways = self._ways[1:]
                     return self(number)
-                self.jumps += self._walks and not walks
-                self.blunt += self._loads.blunt
+                self.told[_JUMPS] += self._walks and not walks
+                self.told[_BLUNT] += self._loads.blunt
+                self.told[_SNAPS] += walks and len(ways) > 2 and _snaps(ways, self._wide)
                 self._require_balance(number)
                 self._ways = ways[-2:]
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
@@ -312,6 +320,12 @@ def _stops(ways: list[FloatArray], units: FloatArray) -> bool:
     before, way = np.diff(np.array(ways) / units, axis=0)
     far = np.sum(before**2, axis=1)
     return bool(np.any((np.sum(way * (3.0 * way - before), axis=1) < 0.0) & (far > _GOES * np.max(far))))
+
+
+def _snaps(ways: list[FloatArray], wide: float) -> bool:
+    """Return whether a body went much farther than before, by a good part of the widest clearance [m]."""
+    before, way = np.linalg.norm(np.diff(np.array(ways)[..., :3], axis=0), axis=2)
+    return bool(np.any((way > _SUDDENLY * before) & (way > _PART * wide)))
 
 
 def _turn(rotations: FloatArray) -> FloatArray:
