@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -16,21 +14,6 @@ from scipy.integrate import OdeSolver, solve_ivp
 
 import tribodyn as td
 from tribodyn.mechanisms.catalogue import FOLDERS
-
-
-def test_importing_what_stands_behind_a_public_function_does_not_shadow_it() -> None:
-    code = (
-        "import tribodyn.simulation, tribodyn.cases, tribodyn as td; "
-        "assert callable(td.simulate) and callable(td.load_case)"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
-
-
-def test_simulating_in_a_script_imports_nothing_that_draws_or_writes() -> None:
-    names = {"matplotlib", "netCDF4"}
-    code = f"import sys, tribodyn as td; td.simulate, td.read; print(*{names} & sys.modules.keys())"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "\n"
 
 
 def test_a_contact_law_is_a_pressure_over_a_gap_in_metres() -> None:

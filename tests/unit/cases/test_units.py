@@ -1,7 +1,5 @@
 import contextlib
 import math
-import subprocess
-import sys
 from decimal import Decimal
 
 import pytest
@@ -135,11 +133,6 @@ def test_a_kinematic_viscosity_comes_with_its_density() -> None:
         to_si("32 cSt at 870 kg", "Pa s")
     with pytest.raises(UnitProblem):
         to_si("32 um at 870 kg/m^3", "m")
-
-
-def test_the_built_in_case_needs_no_pint() -> None:
-    code = "import sys, tribodyn as td; td.load_case('vsv'); assert 'pint' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_micrometres_are_the_float_a_person_expects() -> None:

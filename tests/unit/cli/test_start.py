@@ -76,12 +76,15 @@ def test_the_help_of_a_command_ends_with_an_example_that_is_understood(command, 
     assert main([name, *arguments]) == 0
 
 
-def test_the_package_itself_is_light() -> None:
+def test_the_package_itself_is_light_and_what_stands_behind_its_functions_draws_nothing() -> None:
     program = (
         "import sys, tribodyn\n"
         f"assert not [name for name in {HEAVY!r} if name in sys.modules]\n"
         "assert tribodyn.__version__ and tribodyn.load_case and tribodyn.simulate\n"
-        "assert tribodyn.contact.LAWS and tribodyn.integrate.SOLVERS\n"
+        "assert tribodyn.contact.LAWS and tribodyn.integrate.SOLVERS and tribodyn.read\n"
+        "assert not {'matplotlib', 'netCDF4'} & sys.modules.keys()\n"
+        "import tribodyn.simulation, tribodyn.cases\n"
+        "assert callable(tribodyn.simulate) and callable(tribodyn.load_case)\n"
         "assert set(tribodyn.__all__) <= set(dir(tribodyn))\n"
         "try: tribodyn.nonsense\nexcept AttributeError: print('good')"
     )

@@ -38,12 +38,12 @@ def test_the_reduced_model_of_the_paper_is_registered_the_same_way() -> None:
     assert MECHANISMS["vsv"].folder == "tribodyn.papers.cheng_2022.reduced"
 
 
-def test_a_case_imports_the_mechanism_of_its_own_kind_alone() -> None:
+def test_a_built_in_case_imports_the_mechanism_of_its_own_kind_alone_and_no_pint() -> None:
     script = "import sys, tribodyn; tribodyn.load_case('vsv'); print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     imported = set(done.stdout.split())
     assert "tribodyn.papers.cheng_2022.reduced.case" in imported
-    assert not imported & {"tribodyn.mechanism", "scipy.optimize"}
+    assert not imported & {"tribodyn.mechanism", "scipy.optimize", "pint"}
 
 
 def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
