@@ -105,7 +105,7 @@ def find_equilibria(
             "freedoms that drives leave rest where loads and springs balance: inertia forces along them, as "
             "those that lift the balls of a governor, are left out; a dynamic run has them"
         )
-    notes += [f"at {number} positions {words}" for words, number in equilibria.told.items() if number]
+    notes += [f"at {number} positions {words}" for words, number in equilibria.counts.items() if number]
     return replace(found, notes=tuple(notes) if found.t.size else ())
 
 
@@ -175,8 +175,8 @@ class Equilibria:
         Slip velocity at which friction is developed [m/s].
     unbalance
         Largest load so far that does not balance, over all loads.
-    told
-        Number of positions so far that a note tells of, by its words.
+    counts
+        Number of positions so far by what a note says of them.
     MUST_REST
         Whether ideal joints must be at rest, too.
     """
@@ -193,7 +193,7 @@ class Equilibria:
         run = assembly.model.case.run
         asks = assembly.model.case.friction.rest or run.directions == "both"
         self._walks = asks and run.analysis == "static"
-        self.told = dict.fromkeys((_JUMPS, _BLUNT, _SNAPS), 0)
+        self.counts = dict.fromkeys((_JUMPS, _BLUNT, _SNAPS), 0)
         self._wide = max((real.shape.clearance for real in assembly.model.clearances.values()), default=0.0)
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank = counterpart.independence()[0]
@@ -217,9 +217,9 @@ class Equilibria:
                 if self._walks and len(ways) > 2 and _stops(ways, self._loads.units.reshape(-1, 6)):
                     self._ways = self._ways[1:]
                     return self(number)
-                self.told[_JUMPS] += self._walks and not walks
-                self.told[_BLUNT] += self._loads.blunt
-                self.told[_SNAPS] += walks and len(ways) > 2 and _snaps(ways, self._wide)
+                self.counts[_JUMPS] += self._walks and not walks
+                self.counts[_BLUNT] += self._loads.blunt
+                self.counts[_SNAPS] += walks and len(ways) > 2 and _snaps(ways, self._wide)
                 self._require_balance(number)
                 self._ways = ways[-2:]
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
