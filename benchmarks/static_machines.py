@@ -115,12 +115,13 @@ def hysteresis(machines: range) -> dict[str, Any]:
         found += [far] if words == _BEST else []
         print(seed, words, f"{np.mean(far):.5f}" if far.size else "", flush=True)
     means = np.array([float(np.mean(one)) for one in found])
-    told = {
-        "ended": dict(ended),
-        "positions within 2 %": float(np.mean(np.concatenate(found) < SAME)),
-        "machines whose mean is within 2 %": int(np.sum(means < SAME)),
-        "mean of a machine": quantiles(means.tolist()),
-    }
+    told: dict[str, Any] = {"ended": dict(ended)}
+    if found:
+        told |= {
+            "positions within 2 %": float(np.mean(np.concatenate(found) < SAME)),
+            "machines whose mean is within 2 %": int(np.sum(means < SAME)),
+            "mean of a machine": quantiles(means.tolist()),
+        }
     print(told, flush=True)
     return told
 
