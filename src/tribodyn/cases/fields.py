@@ -71,9 +71,9 @@ def count(default: int | None, description: str, source: str, *, ge: int, le: in
     return _field(default, description, source, {"ge": ge, "le": le}, kind="count", example=example)
 
 
-def switch(default: bool | None, description: str, source: str) -> Any:
+def switch(default: bool | None, description: str, source: str, *, example: str = "") -> Any:
     """Declare a key that is true or false."""
-    return _field(default, description, source, kind="switch")
+    return _field(default, description, source, kind="switch", example=example)
 
 
 def vector(

@@ -249,7 +249,7 @@ class _Signal(_Timed):
         None, "of amplitude or swing", "", unit="rad/s", gt=0, example="1 rad/s"
     )
     phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
-    cyclic: bool | None = switch(None, "whether a table over time repeats after its length", "")
+    cyclic: bool | None = switch(None, "whether a table over time is repeated", "", example="true")
     angles: Numbers | None = series("angles of the values", "", unit="deg", example='"0, 90, 360 deg"')
     positions: Numbers | None = series("positions of the values", "", unit="mm", example='"0, 10, 20 mm"')
     speeds: Numbers | None = series("speeds of the values", "", unit="rad/s", example='"0, 10, 20 rad/s"')

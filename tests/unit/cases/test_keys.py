@@ -1,5 +1,7 @@
 """Keys of cases: documented, read back, of another kind; those of contact."""
 
+import operator
+import re
 import tomllib
 from itertools import chain
 from typing import Any
@@ -9,9 +11,11 @@ import pytest
 import tribodyn as td
 from tribodyn.cases import Key, keys_of
 from tribodyn.cases.keys import ValueProblem
+from tribodyn.cases.tables import as_declared
+from tribodyn.cases.write import keys_as_toml
 from tribodyn.contact import LAWS
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import built_in, parse_case
+from tribodyn.mechanisms.catalogue import built_in, kinds, parse_case
 
 #: Keys of each built-in case; together some five thousand.
 KEYS = {name: list(keys_of(entry.model).values()) for name, entry in built_in().items()}
@@ -149,3 +153,30 @@ def test_a_parameter_of_another_law_is_noted_for_a_named_pair_too() -> None:
     assert any(
         "pairs.pins.contact.penalty_stiffness has no effect with the law rsdc" in note for note in notes
     )
+
+
+def _refused(key: Key, line: str) -> str:
+    """Return what is wrong with a line of a key, empty if nothing is."""
+    try:
+        held = key.read(tomllib.loads(line)[key.name], text=False)
+    except (tomllib.TOMLDecodeError, ValueProblem) as problem:
+        return f"{line}: {problem}"
+    compare = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
+    values = held if isinstance(held, tuple) else (held,)
+    inside = all(compare[sign](value, bound) for sign, bound in key.bounds for value in values)
+    return "" if inside and (not key.choices or held in key.choices) else line
+
+
+@pytest.mark.parametrize("kind", ["vsv", "mechanism"])
+def test_every_line_that_is_shown_can_be_used_as_it_stands(kind):
+    model = kinds()[kind]
+    shown = keys_as_toml(model, kind) if kind == "mechanism" else td.load_case(kind).to_toml(comments=True)
+    keys, path, wrong = keys_of(model), "", []
+    table, line = re.compile(r"(?:# )?\[([\w.]+)\]"), re.compile(r"(?:# )?(\w+ = .*)")
+    for text in shown.splitlines():
+        if found := table.fullmatch(text):
+            path = as_declared(found[1], keys) + "."
+        elif (found := line.fullmatch(text)) and not found[1].startswith("case ="):
+            wrong.append(_refused(keys[path + found[1].split()[0]], found[1]))
+    assert len(wrong) > 100
+    assert [words for words in wrong if words] == []

@@ -90,7 +90,12 @@ torque = "0.2 N m"
     )
 
     friction_coefficient: float | None = number(
-        None, "of a worm, which is the first wheel, instead of both efficiencies", "", gt=0, le=2
+        None,
+        "of a worm, which is the first wheel, instead of both efficiencies",
+        "",
+        gt=0,
+        le=2,
+        example="0.05",
     )
     lead_angle: float | None = quantity(
         None, "lead angle of a worm; needed with its friction", "", gt=0, lt="90 deg", example="10 deg"

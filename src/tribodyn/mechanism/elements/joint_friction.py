@@ -117,7 +117,12 @@ viscous = "5 N s/m"
         None, "of breakaway, mu_s; that of sliding without it", "", ge=0, le=2, example="0.15"
     )
     backward_coefficient: float | None = number(
-        None, "of sliding where the coordinate falls; that of friction_coefficient without it", "", ge=0, le=2
+        None,
+        "of sliding where the coordinate falls; that of friction_coefficient without it",
+        "",
+        ge=0,
+        le=2,
+        example="0.12",
     )
     stribeck_velocity: float = quantity("10 mm/s", "speed at which it has fallen by 63 %", "assumed", gt=0)
     viscous: float = quantity("0 N s/m", "force over sliding speed", "assumed", ge=0, example="5 N s/m")

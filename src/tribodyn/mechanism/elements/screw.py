@@ -82,6 +82,7 @@ torque = "0.2 N m"
         "",
         ge=0,
         le=2,
+        example="0.12",
     )
     radius: float | None = quantity(
         None, "mean radius of the thread, at which it slides; needed with friction", "", gt=0, example="8 mm"

@@ -78,7 +78,12 @@ class Teeth(Flanks):
         None, "tooth force over indentation, of teeth with backlash", "", gt=0, example="100 N/um"
     )
     efficiency: float | None = number(
-        None, "power out over power in where the first wheel drives; without it no loss", "", gt=0, lt=1
+        None,
+        "power out over power in where the first wheel drives; without it no loss",
+        "",
+        gt=0,
+        lt=1,
+        example="0.95",
     )
     backward_efficiency: float | None = number(
         None,
@@ -86,6 +91,7 @@ class Teeth(Flanks):
         "",
         ge=-10,
         le=1,
+        example="0.9",
     )
     slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
 

@@ -63,7 +63,7 @@ class BeamBodyKeys(NamedGroup):
         "of the library, for Young's modulus and Poisson's ratio",
         "",
         family="tribodyn.cases.materials:MATERIALS",
-        example="steel-100cr6",
+        example="steel-52100",
     )
     young_modulus: float | None = quantity(None, "Young's modulus", "", gt=0, example="110 GPa")
     poisson_ratio: float | None = number(

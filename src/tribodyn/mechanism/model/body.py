@@ -47,7 +47,7 @@ class BodyKeys(NamedGroup):
         "corners of triangles in global coordinates, anticlockwise from outside, instead of a file",
         "",
         unit="m",
-        example='"0, 0, 1 m"',
+        example='"0, 0, 0, 1, 0, 0, 0, 1, 0 m"',
     )
     scale: float | None = number(None, "size of a mesh over that of its triangles", "", gt=0, example="1.2")
     scaled_about: Vector | None = vector(

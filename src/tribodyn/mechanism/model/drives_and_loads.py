@@ -69,10 +69,10 @@ class DriveKeys(NamedGroup):
     velocity: VelocitySignal | None = None
     force: ForceSignal | None = None
     torque_limit: float | None = quantity(
-        None, "most that the motor may give: results say which share it gives", "", unit="N m", gt=0
+        None, "most that the motor may give: results say which share it gives", "", gt=0, example="5 N m"
     )
     force_limit: float | None = quantity(
-        None, "most that the actuator may give: results say which share it gives", "", unit="N", gt=0
+        None, "most that the actuator may give: results say which share it gives", "", gt=0, example="500 N"
     )
 
     def model_post_init(self, context: object, /) -> None:

@@ -23,7 +23,7 @@ class JointInstants(InstantKeys):
         None,
         "joint whose angles or positions these are; by default that of the first drive",
         "",
-        example='"main"',
+        example="main",
     )
 
 
@@ -49,13 +49,11 @@ class OutputKeys(ErrorKeys):
         "assumed",
     )
     at: JointInstants = JointInstants()
-    body: str = name(None, "body that is observed", "", example='"slider"', required=True)
+    body: str = name(None, "body that is observed", "", example="slider", required=True)
     point: Vector | None = vector(
         None, "observed point; by default the mass centre", "", unit="mm", example=POINT
     )
-    reference: str = name(
-        GROUND, "body against which it is observed, or ground", "assumed", example='"frame"'
-    )
+    reference: str = name(GROUND, "body against which it is observed, or ground", "assumed", example="frame")
     reference_point: Vector | None = vector(
         None,
         "point of the reference; by default at the position of the observed point",
@@ -68,7 +66,7 @@ class OutputKeys(ErrorKeys):
         "joint whose motion in the run the ideal mechanism has, too; by default those of motors, controllers "
         "and drives by a torque or a force, where drives by a motion leave the output free",
         "",
-        example='"main"',
+        example="main",
     )
     along: Vector | None = vector(
         None,

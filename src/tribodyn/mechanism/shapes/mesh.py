@@ -23,7 +23,10 @@ class MeshKeys(NamedGroup):
     )
     gap: float | None = quantity(None, "constant gap of a mesh", "", gt=0, example="20 um")
     facets: Numbers | None = series(
-        "corners of triangles in global coordinates, instead of a file", "", unit="m", example='"0, 0, 1 m"'
+        "corners of triangles in global coordinates, instead of a file",
+        "",
+        unit="m",
+        example='"0, 0, 0, 1, 0, 0, 0, 1, 0 m"',
     )
 
 
