@@ -13,6 +13,8 @@ PROGRAM := $(shell find src packages -name '*.py' -o -name '*.toml' -o -name '*.
 # With bytecode kept, which containers often switch off: hundreds of processes import the package. Matrices are
 # small: a second thread for each of them takes time from another test.
 PYTEST := PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 3 --dist worksteal
+# What `make test` leaves out of these, `make check` runs each day, and the seventh not again.
+CHECKED := tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py tests/browser/test_manual.py
 NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:
@@ -54,7 +56,7 @@ SEVENTH := $(shell expr $$(date +%s) / 86400 % 7)
 # What is promised and takes longer than tests may: two at a time, the longest first.
 check: ready $(VENV)/.docs
 	$(MAKE) --jobs 2 --output-sync=target wheels docs paper lint
-	$(PYTEST) tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py tests/browser/test_manual.py
+	$(PYTEST) --dist loadfile -m long $(CHECKED)
 
 paper: ready
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
@@ -64,8 +66,9 @@ wheels: ready
 	tools/try-wheel $(BIN)/python out/wheels
 	tools/try-bounds out/wheels
 
+# One by one, the longest first: nobody waits for a long one at the end.
 check-long: ready
-	$(PYTEST) -m long --part $(SEVENTH)/7
+	$(PYTEST) --dist load --maxschedchunk 1 -m long --part $(SEVENTH)/7 $(addprefix --ignore=,$(CHECKED))
 
 # Numerical tests must not depend on rounding: ten relative tolerances 1e-9 apart take other roundings each.
 test-long: ready

@@ -55,7 +55,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--part",
         metavar="K/N",
-        help="of the tests that -m selects, run every N-th from the K-th on: N parts run all of them",
+        help="of the tests that -m selects, run part K of N that take about the same time",
     )
 
 
@@ -64,8 +64,26 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     # After -m has selected: a plug-in's hook that comes first would count the tests that are left out.
     if config.getoption("part"):
         part, parts = map(int, config.getoption("part").split("/"))
-        config.hook.pytest_deselected(items=[item for k, item in enumerate(items) if k % parts != part])
-        items[:] = items[part::parts]
+        shares = divided(items, parts)
+        items[:] = shares.pop(part)
+        config.hook.pytest_deselected(items=[item for share in shares for item in share])
+
+
+def divided(items: list[pytest.Item], parts: int) -> list[list[pytest.Item]]:
+    """Return the items in parts that take about the same time, in each part what takes longest first."""
+    shares: list[list[pytest.Item]] = [[] for _ in range(parts)]
+    loads = [0.0] * parts
+    for item in sorted(items, key=_minutes, reverse=True):
+        least = loads.index(min(loads))
+        shares[least].append(item)
+        loads[least] += _minutes(item)
+    return shares
+
+
+def _minutes(item: pytest.Item) -> float:
+    """Return what a long test says of how long it takes, roughly; those that take seconds say nothing."""
+    mark = item.get_closest_marker("long")
+    return float(mark.kwargs.get("minutes", 0.1)) if mark else 0.005
 
 
 def pytest_collection_finish() -> None:

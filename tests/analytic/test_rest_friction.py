@@ -109,7 +109,7 @@ def law(**changes: float) -> tuple[Record, Record]:
     return joint, new_record(Law)
 
 
-@pytest.mark.parametrize("steps", [2_000, pytest.param(100_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("steps", [2_000, pytest.param(100_000, marks=pytest.mark.long(minutes=0.8))])
 def test_friction_is_passive_under_any_load(steps: int) -> None:
     """What it takes in is never less than what it stores more, under loads with lift-off."""
     random, (joint, now) = np.random.default_rng(60), law(breakaway=0.1)

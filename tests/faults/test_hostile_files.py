@@ -22,7 +22,7 @@ from tribodyn.core.files import read_regular
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms.catalogue import load_case
 
-FEW, PARTS, EACH = 5, 10, 500
+FEW, PARTS, EACH = 5, 14, 358
 Maker = Callable[[Path, random.Random], None]
 
 
@@ -147,7 +147,7 @@ READERS: dict[str, tuple[list[Maker], str, list[list[str]]]] = {
 # In parts, each a test: what takes an hour shows how far it is.
 @pytest.mark.parametrize(
     ("part", "count"),
-    [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long) for part in range(PARTS))],
+    [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long(minutes=2.2)) for part in range(PARTS))],
 )
 def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path, process: Watched) -> None:
     draw = random.Random(part)

@@ -292,10 +292,11 @@ def assert_sound(kind: Kind, seeds: Iterable[int]) -> None:
     assert not {seed: text for seed, text in found.items() if text}
 
 
-def chunks(count: int, size: int = 25) -> list[Any]:
+def chunks(count: int, size: int = 25, minutes: float = 0.4) -> list[Any]:
     """Return seeds in chunks, each a test: a campaign can be taken up where it was left, by ``-k``."""
+    lasts = pytest.mark.long(minutes=minutes)
     ranges = [range(first, first + size) for first in range(0, count, size)]
-    return [pytest.param(seeds, id=f"from_{seeds.start}", marks=pytest.mark.long) for seeds in ranges]
+    return [pytest.param(seeds, id=f"from_{seeds.start}", marks=lasts) for seeds in ranges]
 
 
 @pytest.mark.parametrize("seeds", [pytest.param(range(6), id="few"), *chunks(500)])
@@ -303,7 +304,7 @@ def test_mechanisms(seeds: range) -> None:
     assert_sound(MECHANISM, (seed for seed in seeds if seed != PRESSED_IN))
 
 
-@pytest.mark.long
+@pytest.mark.long(minutes=0.4)
 def test_a_pin_that_is_pressed_deep_into_its_bore_warns_of_energy() -> None:
     found = run(MECHANISM.case(PRESSED_IN))
     assert float(found.attrs["separation_least"]) < -1e-4
@@ -319,7 +320,7 @@ def test_what_a_stopped_run_advises_lets_it_go_on(seeds: tuple[int, ...]) -> Non
     assert_sound(ELASTIC, STOPPED)
 
 
-@pytest.mark.parametrize("seeds", [pytest.param((0, STOPPED[0]), id="few"), *chunks(500)])
+@pytest.mark.parametrize("seeds", [pytest.param((0, STOPPED[0]), id="few"), *chunks(500, minutes=0.9)])
 def test_machines_that_say_nothing_of_bodies_have_elastic_ones_where_asperities_end(
     seeds: Iterable[int],
 ) -> None:

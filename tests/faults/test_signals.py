@@ -31,7 +31,7 @@ from tribodyn.mechanisms.results import read
 SOON = 30.0  #: Time within which a process ends after the signal [s], without what it waits for a processor.
 #: Processor time until which a command is left alone; a run is certainly under way by then [s].
 LONGEST = 8.0
-PARTS, SIGNALS = 10, 20  #: The long campaign: parts, and signals in each.
+PARTS, SIGNALS = 14, 15  #: The long campaign: parts, and signals in each.
 WEAR = ["run.output_interval=50 ms", "wear.specific_wear_rate=1.1e-12 m^2/N", "wear.cycles=400"]
 
 
@@ -266,7 +266,7 @@ def test_a_run_of_hours_ends_at_once_and_whole(tmp_path: Path) -> None:
 
 
 # In parts, each a test: a campaign of minutes shows how far it is.
-@pytest.mark.long
+@pytest.mark.long(minutes=4)
 @pytest.mark.parametrize("part", range(PARTS))
 def test_signals_at_random_moments_of_all_commands(part, inputs, lasts, tmp_path):
     chance, names = random.Random(part), list(COMMANDS)

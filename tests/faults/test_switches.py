@@ -382,7 +382,7 @@ def test_no_success_where_the_error_hides_best():
     assert_honest(BELOW_ROUNDING + MODERATE + NARROW + TOO_LARGE + HALFWAY + MIXED, 3000, 0.0)
 
 
-@pytest.mark.long
+@pytest.mark.long(minutes=0.8)
 @pytest.mark.usefixtures("_undoubted")
 def test_two_thousand_jacobians_that_are_too_large():
     errors = {seed: largest_error(seed, 1500) for seed in range(2000)}

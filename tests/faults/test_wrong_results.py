@@ -20,7 +20,7 @@ from tribodyn.results import netcdf_content
 from tribodyn.simulation import simulate
 from tribodyn.studies import sweep
 
-FEW, PARTS, EACH = 5, 10, 200
+FEW, PARTS, EACH = 5, 14, 143
 DRAWN = 0.2  #: Share of the runs whose figures are drawn too, which takes thirty times as long as all else.
 Mutation = Callable[[xr.Dataset, str], xr.Dataset]
 
@@ -185,7 +185,7 @@ def try_mutants(
 # In parts, each a test: what takes an hour shows how far it is.
 @pytest.mark.parametrize(
     ("part", "count"),
-    [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long) for part in range(PARTS))],
+    [(-1, FEW), *(pytest.param(part, EACH, marks=pytest.mark.long(minutes=4.5)) for part in range(PARTS))],
 )
 def test_wrong_results_are_refused_or_harmless(part, count, originals, tmp_path, process):
     every = [(kind, name, make) for kind, whole in originals.items() for name, make in mutants(whole)]

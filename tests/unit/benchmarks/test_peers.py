@@ -69,7 +69,10 @@ LASTING = (
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.long) if name in LASTING else name for name in (*NAMES, *BY_HAND)],
+    [
+        pytest.param(name, marks=pytest.mark.long(minutes=0.8)) if name in LASTING else name
+        for name in (*NAMES, *BY_HAND)
+    ],
 )
 def test_a_benchmark_runs(name: str) -> None:
     found = importlib.import_module(f"benchmarks.{name}").run(quick=True)

@@ -178,7 +178,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder with a copy of the package to which all parts of the manual are added."""
     place = tmp_path_factory.mktemp("copy")
     copy = place / "tribodyn"
-    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(SOURCE, copy)  # with bytecode, which compiling again would take longer than all else
     for folder, title, first in (
         ("elements", "Belt", "gear"),
         ("elements", "Stokes", "gear"),

@@ -14,8 +14,6 @@ from tribodyn.studies.calibration import Calibration, VariedKey
 from tribodyn.studies.fit_report import fitted_keys, statements
 from tribodyn.studies.measured import Experiment, Measured, MeasuredCurve
 
-pytestmark = pytest.mark.long
-
 FITS = 100
 NOISE = 0.01  #: Standard deviation over the range of a curve.
 PROCESSOR_TIME = 120.0  #: 60 s on two cores [s].
@@ -55,6 +53,7 @@ def _calibration(case, truth: Mapping[str, tuple[float, str, str]], data: Measur
     return Calibration(case, keys, [Experiment("run.csv", {}, data)], data.noise(NOISE))
 
 
+@pytest.mark.long(minutes=8.5)
 def test_intervals_of_a_journal_hold_the_truth_in_90_to_99_of_100_fits() -> None:
     case, run = _case("journal-dry", {"run.duration": "2 ms", "contact.law": "ke"}, JOURNAL)
     times = np.linspace(1e-4, 1.8e-3, 30)
@@ -69,6 +68,7 @@ def test_intervals_of_a_journal_hold_the_truth_in_90_to_99_of_100_fits() -> None
     assert all(90 <= count <= 99 for count in held.values()), held
 
 
+@pytest.mark.long(minutes=2)
 def test_three_keys_of_a_slider_crank_take_a_minute_on_two_cores() -> None:
     case, run = _case("slider-crank", {"run.cycles": 1}, CRANK)
     times = np.linspace(0.1, 0.95, 60) * float(run["time"].values[-1])
