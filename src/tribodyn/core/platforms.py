@@ -29,6 +29,7 @@ KNOWS_LOCAL_NAMES: Final = sys.platform != "darwin"
 HANGUP: Final = () if sys.platform == "win32" else (signal.SIGHUP,)  #: Signals at the end of a terminal.
 #: File of Linux with a container's limits: time on all processors together, and its period [µs].
 _QUOTA: Final = Path("/sys/fs/cgroup/cpu.max")
+_MOST_MEMORY: Final = Path("/sys/fs/cgroup/memory.max")  #: File of Linux with a container's memory [B].
 _LOCK: Final = ".lock"  #: File that is locked where folders cannot be.
 #: Parameter of ``mallopt``: the size from which a block comes from the system and goes back there.
 _MMAP_THRESHOLD: Final = -3
@@ -42,6 +43,16 @@ def processors() -> int:
         used, period = map(int, _QUOTA.read_text(encoding="ascii").split())
         count = min(count, math.ceil(used / period))
     return max(count, 1)
+
+
+def memory() -> float:
+    """Return the memory of this machine, or of its container [B]; infinite where the system does not say."""
+    if sys.platform == "win32":
+        return math.inf
+    size = float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    with suppress(OSError, ValueError):  # no container, or one without a limit
+        size = min(size, int(_MOST_MEMORY.read_text(encoding="ascii")))
+    return size
 
 
 def free_handles() -> int:

@@ -13,6 +13,7 @@ times but those of films, pictures and integrators in Python: see the page of co
 from dataclasses import dataclass
 from typing import Final, Self
 
+from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.workload import Workload
 
 MOST_MEMORY: Final = 2.0e9  #: Memory above which a warning is given [B].
@@ -108,6 +109,12 @@ class Estimate:
         if self.seconds > MOST_TIME:
             found.append(_warned(in_time(self.seconds), "processor time", in_time(MOST_TIME), self.time_key))
         return tuple(found)
+
+    def require_memory(self, there: float) -> None:
+        """Refuse a run that takes more than is ``there`` [B], even if it takes half of what is expected."""
+        if self.memory > 2.0 * there:
+            has = f"the {in_bytes(there)} of this machine"
+            raise InputError(_warned(in_bytes(self.memory), "memory", has, self.memory_key))
 
 
 def _warned(value: str, what: str, limit: str, key: str) -> str:

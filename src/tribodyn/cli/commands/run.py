@@ -16,6 +16,7 @@ from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
 from tribodyn.cli.pictures import draw
 from tribodyn.cli.tables import in_words
 from tribodyn.core.errors import InputError
+from tribodyn.core.platforms import memory
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
@@ -136,7 +137,9 @@ def _simulate(case: Case, directory: OutputDirectory, console: Console, stop: In
         console.note(f"going on with the wear campaign kept in {os.fspath(directory.checkpoint)}")
     from tribodyn.simulation import estimate, simulate
 
-    for warning in estimate(case).warnings:
+    expected = estimate(case)
+    expected.require_memory(memory())
+    for warning in expected.warnings:
         complain(f"warning: {warning}")
     with _progress(case, console) as shown:
         return simulate(case, progress=shown, stop=stop, checkpoint=directory.checkpoint)
