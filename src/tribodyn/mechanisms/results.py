@@ -5,10 +5,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.cases.case import Case
@@ -22,6 +21,9 @@ from tribodyn.results.dataset import NOT_KEPT
 from tribodyn.results.reading import entries
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import PARTS, VARIABLES
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Impacts, and the ringing that follows them, are over after this share of the time between two reversals of
 #: the drive, half its cycle; the rest is smooth motion.
@@ -84,7 +86,7 @@ def of_rows(
     return found
 
 
-def read(path: str | Path) -> xr.Dataset:
+def read(path: str | Path) -> "xr.Dataset":
     """Read a result into memory, and check it.
 
     Parameters
@@ -110,12 +112,12 @@ def read(path: str | Path) -> xr.Dataset:
     return store.read(path, {kind: mechanism.variables for kind, mechanism in MECHANISMS.items()})
 
 
-def write_run(dataset: xr.Dataset, directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:
+def write_run(dataset: "xr.Dataset", directory: str | Path, stale: Iterable[Path] = ()) -> list[Path]:
     """Write a run with its key results, see :func:`tribodyn.results.store.write_run`."""
     return store.write_run(dataset, directory, summarise(dataset), stale)
 
 
-def mechanism_of(dataset: xr.Dataset) -> MechanismDescriptor:
+def mechanism_of(dataset: "xr.Dataset") -> MechanismDescriptor:
     """Return the mechanism that a result is of.
 
     Raises InputError if there is no such mechanism.
@@ -127,7 +129,7 @@ def mechanism_of(dataset: xr.Dataset) -> MechanismDescriptor:
 
 
 @contextmanager
-def all_there(*datasets: xr.Dataset) -> Iterator[None]:
+def all_there(*datasets: "xr.Dataset") -> Iterator[None]:
     """Refuse results that lack a variable which the block reads.
 
     Which variables a result holds depends on what was simulated, so that it shows only where one is used.
@@ -145,7 +147,7 @@ def all_there(*datasets: xr.Dataset) -> Iterator[None]:
         raise InputError(reason) from error
 
 
-def summarise(dataset: xr.Dataset) -> summary.Summary:
+def summarise(dataset: "xr.Dataset") -> summary.Summary:
     """Return the key results of a result, see :func:`tribodyn.results.summary.summarise`."""
     mechanism = mechanism_of(dataset)
     parts = {

@@ -4,9 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
-from typing import cast
-
-import xarray as xr
+from typing import TYPE_CHECKING, cast
 
 from tribodyn.cases.case import Case
 from tribodyn.cases.groups import Contact
@@ -24,6 +22,9 @@ from tribodyn.simulation.costs import Estimate, estimated
 from tribodyn.simulation.session import Session
 from tribodyn.simulation.wear import simulate_campaign, simulate_plain
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 def simulate(
     case: AnyCase,
@@ -35,7 +36,7 @@ def simulate(
     drive: OwnFunction | None = None,
     loads: Mapping[str, OwnFunction] | None = None,
     controllers: Mapping[str, OwnFunction] | None = None,
-) -> xr.Dataset:
+) -> "xr.Dataset":
     """Simulate a case.
 
     Parameters
@@ -101,7 +102,7 @@ def simulate(
         return _carried(given, session, path)
 
 
-def _carried(case: Case, session: Callable[..., Session], checkpoint: Path | None) -> xr.Dataset:
+def _carried(case: Case, session: Callable[..., Session], checkpoint: Path | None) -> "xr.Dataset":
     """Simulate a case, once more with elastic bodies where asperities alone do not carry."""
     if checkpoint is not None and checkpoint.exists():
         softer = case.yielding()
@@ -137,7 +138,7 @@ def _with_law(case: Case, law: OwnLaw) -> Case:
     return case.model_copy(update={"contact": contact.with_own(law_of_user(law))})
 
 
-def _simulated(session: Session, checkpoint: Path | None) -> xr.Dataset:
+def _simulated(session: Session, checkpoint: Path | None) -> "xr.Dataset":
     if not session.mechanism.of_cycle:
         return session.dataset(session.integrated(session.case.duration), ResultPart())
     campaign = cast("Case", session.case).campaign_cycles

@@ -2,9 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from tribodyn.core.platforms import provenance
 from tribodyn.core.problem import Problem, Solution, Stop, skipped
@@ -22,6 +20,9 @@ from tribodyn.mechanisms.mechanism_protocol import (
 from tribodyn.results import build
 from tribodyn.results.dataset import ASSUMED_WEAR, DATA_HASH, ROWS_HASH, WEAR_SCATTER
 from tribodyn.simulation import session as hashes
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Progress = Callable[[float], None] | None  #: Called with the simulated time [s] after every accepted step.
 
@@ -58,7 +59,7 @@ class Session:
         found = {DATA_HASH: data, ROWS_HASH: hashes.of_rows(solution)}
         return FinishedRun(problem, solution, vars(solution.statistics), carried, found)
 
-    def dataset(self, run: FinishedRun, more: ResultPart) -> xr.Dataset:
+    def dataset(self, run: FinishedRun, more: ResultPart) -> "xr.Dataset":
         """Return the result of a run, with what was added to it."""
         part = self.system.gather(run)
         solver, said = self.case.solver, self.case.remarks()

@@ -4,10 +4,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Final, cast
+from typing import TYPE_CHECKING, Final, cast
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.cases.joint_keys import Wear
@@ -18,10 +17,13 @@ from tribodyn.simulation.campaign import Campaign, CampaignPlan, Cycle, run_camp
 from tribodyn.simulation.session import Session
 from tribodyn.wear import Archard, JumpControl, worn_volume
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 _ROUNDING: Final = 1.0e-9
 
 
-def simulate_plain(session: Session) -> xr.Dataset:
+def simulate_plain(session: Session) -> "xr.Dataset":
     """Run a case of a system that wears once; its wear is what one run makes, without feedback."""
     system, wear = cast(WearingSystem, session.system), cast(WearingCase, session.case).wear
     run = session.integrated(session.case.duration)
@@ -36,17 +38,12 @@ def simulate_plain(session: Session) -> xr.Dataset:
     return session.dataset(run, replace(part, fields=fields, notes=[*part.notes, *notes]))
 
 
-def simulate_campaign(session: Session, checkpoint: Path | None) -> xr.Dataset:
+def simulate_campaign(session: Session, checkpoint: Path | None) -> "xr.Dataset":
     """Run the wear campaign of a case, see :func:`tribodyn.simulation.simulate`."""
     text, cycles = session.case.to_toml(), _Cycles(session)
     columns = tuple(session.mechanism.of_cycle)
-    found = (
-        None
-        if checkpoint is None
-        else checkpoints.read(
-            checkpoint, text, cycles.plan.node_area.shape, cycles.system.nodes.n_states, columns
-        )
-    )
+    shape, n_states = cycles.plan.node_area.shape, cycles.system.nodes.n_states
+    found = None if checkpoint is None else checkpoints.read(checkpoint, text, shape, n_states, columns)
     resumed, changes = (None, []) if found is None else found
 
     def keep(campaign: Campaign) -> None:

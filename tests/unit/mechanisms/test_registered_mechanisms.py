@@ -38,12 +38,12 @@ def test_the_reduced_model_of_the_paper_is_registered_the_same_way() -> None:
     assert MECHANISMS["vsv"].folder == "tribodyn.papers.cheng_2022.reduced"
 
 
-def test_a_built_in_case_imports_the_mechanism_of_its_own_kind_alone_and_no_pint() -> None:
+def test_a_built_in_case_imports_the_mechanism_of_its_own_kind_alone_and_neither_pint_nor_xarray() -> None:
     script = "import sys, tribodyn; tribodyn.load_case('vsv'); print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     imported = set(done.stdout.split())
     assert "tribodyn.papers.cheng_2022.reduced.case" in imported
-    assert not imported & {"tribodyn.mechanism", "scipy.optimize", "pint"}
+    assert not imported & {"tribodyn.mechanism", "scipy.optimize", "pint", "xarray"}
 
 
 def test_one_that_is_wrong_is_left_out_with_the_reason(tmp_path: Path) -> None:
@@ -72,7 +72,7 @@ COMMANDS = [
     ["show", "disc"],
     ["check", "disc", "--set", "disc.mass=0.2 kg"],
     ["run", "disc", "-o", "one", "--quiet"],
-    ["run", "disc", "--set", "disc.mass=0.2 kg", "-o", "two", "--quiet"],
+    ["run", "disc", "--set", "disc.mass=0.2 kg", "-o", "two", "--quiet", "--no-figures", "--no-report"],
     ["compare", "one", "two", "-o", "both.html"],
     ["sweep", "disc", "--vary", "disc.height=10 um,20 um", "--workers", "0", "-o", "swept", "--quiet"],
     ["report", "swept"],

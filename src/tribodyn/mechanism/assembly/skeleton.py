@@ -3,10 +3,9 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.cases.case import unit
@@ -16,6 +15,9 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 #: Numbers of bodies, −1 for the ground, with points of each in the drawing [m], shape (n, 3).
 Outline: TypeAlias = tuple[tuple[int, FloatArray], ...]
 
@@ -23,7 +25,7 @@ MM: Final = 1e3
 _FLAT: Final = 0.2  #: A mechanism thinner than this share of its size is looked at across its plane.
 
 
-def case_of(dataset: xr.Dataset) -> MechanismCase | None:
+def case_of(dataset: "xr.Dataset") -> MechanismCase | None:
     """Return the case of a result; nothing where its text is not (or no longer) one of a mechanism."""
     return _case_of(str(dataset.attrs.get("case", "")))
 

@@ -4,10 +4,9 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.cases.tables import keys_in
@@ -16,12 +15,15 @@ from tribodyn.results.reading import column, entries, settled
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import ERROR_UNITS
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 _COPY: Final = re.compile(r"(.+)\[\d+\]")
 _OF_COPY: Final = re.compile(r"([^[]+)\[\d+\](\.[^:[]+)")  #: Path of a key of a copy.
 _SAME: Final = 1e-9  #: Relative difference of values that are the same.
 
 
-def copies_of(dataset: xr.Dataset) -> dict[str, list[int]]:
+def copies_of(dataset: "xr.Dataset") -> dict[str, list[int]]:
     """Return the numbers of the outputs that are copies of one another, by the name that they share."""
     return _numbered(entries(dataset, "output").tolist())
 
@@ -35,7 +37,7 @@ def _numbered(names: Iterable[object]) -> dict[str, list[int]]:
     return {name: numbers for name, numbers in found.items() if len(numbers) > 1}
 
 
-def _groups(dataset: xr.Dataset, unit: str) -> Iterator[list[int]]:
+def _groups(dataset: "xr.Dataset", unit: str) -> Iterator[list[int]]:
     """Yield the outputs of a unit that are copies of one another."""
     units = entries(dataset, "output_unit").tolist()
     yield from (numbers for numbers in copies_of(dataset).values() if units[numbers[0]] == unit)
@@ -58,7 +60,7 @@ def worst(error: FloatArray, time: FloatArray) -> int:
     return int(np.argmax(over_time(apart(error) ** 2, time)))
 
 
-def worst_copies(dataset: xr.Dataset) -> list[str]:
+def worst_copies(dataset: "xr.Dataset") -> list[str]:
     """Return the ends of the names of the parts of the copies that are furthest from the mean: ``[7]``."""
     error, time = column(dataset, "output_error"), column(dataset, "time")
     return [
@@ -110,7 +112,7 @@ def _differing(case: MechanismCase) -> dict[str, FloatArray]:
     return {key: np.array(of) for key, of in found.items() if np.ptp(of) > _SAME * np.max(np.abs(of))}
 
 
-def _hysteresis(dataset: xr.Dataset, numbers: list[int], scale: float) -> float:
+def _hysteresis(dataset: "xr.Dataset", numbers: list[int], scale: float) -> float:
     """Return the largest difference of errors between both directions at an ideal value; NaN without."""
     widest = math.nan
     for k in numbers:
@@ -147,7 +149,7 @@ _NUMBERS: Final[dict[str, tuple[str, str, Callable[[FloatArray, FloatArray], flo
 }
 
 
-def _number(unit: str, name: str, dataset: xr.Dataset) -> float:
+def _number(unit: str, name: str, dataset: "xr.Dataset") -> float:
     """Return the largest number of all outputs of a unit that are repeated."""
     scale, reduce = ERROR_UNITS[unit][2], _NUMBERS[name][2]
     time = settled(dataset, column(dataset, "time"))
@@ -158,12 +160,12 @@ def _number(unit: str, name: str, dataset: xr.Dataset) -> float:
     return max(found, default=math.nan)
 
 
-def _turned(unit: str, dataset: xr.Dataset) -> float:
+def _turned(unit: str, dataset: "xr.Dataset") -> float:
     found = [_hysteresis(dataset, numbers, ERROR_UNITS[unit][2]) for numbers in _groups(dataset, unit)]
     return max(found, default=math.nan)
 
 
-def _which(dataset: xr.Dataset) -> float:
+def _which(dataset: "xr.Dataset") -> float:
     """Return the worst copy of the first output that is repeated."""
     numbers = next(iter(copies_of(dataset).values()), None)
     if numbers is None:
@@ -172,7 +174,7 @@ def _which(dataset: xr.Dataset) -> float:
     return 1.0 + worst(settled(dataset, error), settled(dataset, time))
 
 
-def _beyond(dataset: xr.Dataset) -> float:
+def _beyond(dataset: "xr.Dataset") -> float:
     """Return the share of all copies that pass the limit of their error; NaN without limits."""
     limits, error = entries(dataset, "output_error_limit"), column(dataset, "output_error")
     numbers = [k for of in copies_of(dataset).values() for k in of if np.isfinite(limits[k])]

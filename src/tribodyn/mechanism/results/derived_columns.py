@@ -2,10 +2,9 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.cases.case import unit
@@ -22,6 +21,9 @@ from tribodyn.mechanism.model.output_declarations import OutputKeys
 from tribodyn.mechanisms.mechanism_protocol import ByPart, plain
 from tribodyn.results.reading import column, entries, settled
 from tribodyn.results.summary import KeyResult
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _Z: Final = 2
 #: Coordinate of a joint, or of the load itself, that a table follows, by its knots.
@@ -190,7 +192,7 @@ def _number(
     """Return a number of each spring."""
 
     def made(spring: str) -> KeyResult:
-        def compute(dataset: xr.Dataset) -> float:
+        def compute(dataset: "xr.Dataset") -> float:
             k = [plain(str(name)) for name in entries(dataset, "spring")].index(plain(spring))
             return float(reduce(settled(dataset, column(dataset, variable)[:, k])))
 

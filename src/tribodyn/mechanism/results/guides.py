@@ -6,10 +6,9 @@ corners on one face, and two on faces that look at each other, where the block i
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
@@ -23,6 +22,9 @@ from tribodyn.mechanism.results import joint_readings as readings
 from tribodyn.mechanisms.mechanism_protocol import ByPart
 from tribodyn.results.reading import of_part, time_mean
 from tribodyn.results.summary import KeyResult
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Contacts of a block by names, with labels; results hold their numbers.
 SITUATIONS: Final = {
@@ -84,7 +86,7 @@ _FACING: Final = 1.0e-6  #: Least cosine against each other of the normals of tw
 def _share(number: int, label: str, what: str) -> ByPart:
     """Return the share of time in which a guide is in a situation."""
 
-    def value(dataset: xr.Dataset, joint: str) -> float:
+    def value(dataset: "xr.Dataset", joint: str) -> float:
         where = of_part(dataset, "guide_contact", readings.of_joint(dataset, joint))
         inside = np.where(np.isnan(where), np.nan, 100.0 * (where == number))
         return time_mean(dataset, inside)

@@ -3,10 +3,9 @@
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.mechanism.results import joint_readings as readings
@@ -15,11 +14,14 @@ from tribodyn.results.reading import column, of_part, peak, rms, settled, sustai
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import wear_life, wear_rate
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:
     """Return the largest value outside the impacts after reversals, of one joint or of all of them."""
 
-    def value(dataset: xr.Dataset, joint: str) -> float:
+    def value(dataset: "xr.Dataset", joint: str) -> float:
         values = column(dataset, f"{quantity}_outside")
         return (
             readings.above_zero(peak(values[:, readings.of_joint(dataset, joint)] if joint else values))
@@ -49,10 +51,10 @@ OUTSIDE: Final[dict[str, ByPart]] = {
 }
 
 
-def _driven(label: str, unit: str, meaning: str, reduce: Callable[[xr.Dataset, slice], float]) -> ByPart:
+def _driven(label: str, unit: str, meaning: str, reduce: Callable[["xr.Dataset", slice], float]) -> ByPart:
     """Return a number of the drives of some joints: of all, and of each where several are driven."""
 
-    def value(dataset: xr.Dataset, joint: str) -> float:
+    def value(dataset: "xr.Dataset", joint: str) -> float:
         if not joint:
             return reduce(dataset, slice(None))
         several = np.count_nonzero(column(dataset, "drive_power").any(axis=0)) > 1
@@ -66,15 +68,15 @@ def _driven(label: str, unit: str, meaning: str, reduce: Callable[[xr.Dataset, s
     return made
 
 
-def _rms(effort: str, dataset: xr.Dataset, joints: slice) -> float:
+def _rms(effort: str, dataset: "xr.Dataset", joints: slice) -> float:
     return readings.above_zero(max(rms(dataset, values) for values in column(dataset, effort)[:, joints].T))
 
 
-def _peak(quantity: str, dataset: xr.Dataset, joints: slice) -> float:
+def _peak(quantity: str, dataset: "xr.Dataset", joints: slice) -> float:
     return readings.above_zero(peak(settled(dataset, column(dataset, quantity)[:, joints])))
 
 
-def _rate_at_peak(effort: str, other: str, dataset: xr.Dataset, joints: slice) -> float:
+def _rate_at_peak(effort: str, other: str, dataset: "xr.Dataset", joints: slice) -> float:
     values = settled(dataset, column(dataset, effort)[:, joints])
     where = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     power = settled(dataset, column(dataset, "drive_power")[:, joints])[where]
@@ -124,7 +126,7 @@ def pair(
     unit: str,
     group: str,
     meaning: str,
-    values: Callable[[xr.Dataset], FloatArray],
+    values: Callable[["xr.Dataset"], FloatArray],
     *,
     scale: float = 1.0,
 ) -> dict[str, KeyResult]:
@@ -156,7 +158,7 @@ def pair(
 
 
 def _named(
-    label: str, unit: str, group: str, meaning: str, compute: Callable[[xr.Dataset, int], float]
+    label: str, unit: str, group: str, meaning: str, compute: Callable[["xr.Dataset", int], float]
 ) -> ByPart:
     def made(joint: str) -> KeyResult:
         number = KeyResult(label, unit, group, meaning, lambda d: compute(d, readings.of_joint(d, joint)))
@@ -170,7 +172,7 @@ def _pair_named(
     label: str,
     unit: str,
     meaning: str,
-    values: Callable[[xr.Dataset, int], FloatArray],
+    values: Callable[["xr.Dataset", int], FloatArray],
     *,
     scale: float = 1.0,
 ) -> dict[str, ByPart]:

@@ -3,16 +3,18 @@
 import math
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from mebdf.arrays import FloatArray
 from tribodyn.mechanisms.mechanism_protocol import plain
 from tribodyn.results.reading import column, entries, of_part
 from tribodyn.views.energy_balance import EnergyBalance, EnergyTerm, energy_columns
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _KEPT: Final = 8  #: Results of which the numbers of joints and surfaces are kept.
 
@@ -22,12 +24,12 @@ def lengths(vectors: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.norm(vectors, axis=-1))
 
 
-def sizes(dataset: xr.Dataset, name: str) -> FloatArray:
+def sizes(dataset: "xr.Dataset", name: str) -> FloatArray:
     """Return the lengths of the vectors of a variable over time and parts, shape (n_t, n)."""
     return lengths(column(dataset, name))
 
 
-def of_joint(dataset: xr.Dataset, joint: str) -> int:
+def of_joint(dataset: "xr.Dataset", joint: str) -> int:
     """Return the number of a joint, whose name may be that of a number; others raise ``KeyError``."""
     return _numbers(tuple(entries(dataset, "joint").tolist()))[plain(joint)]
 
@@ -38,7 +40,7 @@ def _numbers(joints: tuple[str, ...]) -> dict[str, int]:
     return {plain(name): number for number, name in reversed([*enumerate(joints)])}
 
 
-def offset(dataset: xr.Dataset, joint: int | slice = slice(None)) -> FloatArray:
+def offset(dataset: "xr.Dataset", joint: int | slice = slice(None)) -> FloatArray:
     """Return the offsets of shafts in their bores [m], shape (n_t, n_joints); (n_t,) of a single joint."""
     if isinstance(joint, int):
         across = of_part(dataset, "displacement", joint, _across)
@@ -65,7 +67,7 @@ def above_zero(value: float) -> float:
     return value if value > NOTHING else math.nan
 
 
-def of_surfaces(dataset: xr.Dataset, joint: int) -> NDArray[np.intp]:
+def of_surfaces(dataset: "xr.Dataset", joint: int) -> NDArray[np.intp]:
     """Return the numbers of the surfaces of a joint, none where it is ideal."""
     surfaces = entries(dataset, "surface").tolist() if "surface" in dataset.coords else []
     return np.array(_surfaces(tuple(surfaces)).get(str(entries(dataset, "joint")[joint]), ()), dtype=np.intp)

@@ -2,10 +2,9 @@
 
 import math
 from collections.abc import Callable
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.mechanism.results import joint_readings as readings
@@ -17,16 +16,19 @@ from tribodyn.results import reading
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.wear_numbers import WEAR_NUMBERS
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 _ROUNDING: Final = 1e-9
 
 
-def _cycles(dataset: xr.Dataset) -> float:
+def _cycles(dataset: "xr.Dataset") -> float:
     """Return the number of whole cycles evaluated; NaN for none."""
     whole = math.floor(reading.column(dataset, "time")[-1] / reading.period(dataset) + _ROUNDING)
     return readings.above_zero(whole if reading.in_settled(dataset)[0] else whole - 1)
 
 
-def _scatter(dataset: xr.Dataset) -> float:
+def _scatter(dataset: "xr.Dataset") -> float:
     """Return by how much the largest forces of the cycles looked at differ, of their mean [%]."""
     time, n = reading.settled(dataset, reading.column(dataset, "time")), int(_cycles(dataset))
     force = reading.settled(dataset, readings.sizes(dataset, "reaction_force").max(axis=1))
@@ -35,13 +37,13 @@ def _scatter(dataset: xr.Dataset) -> float:
     return 100.0 * float(np.ptp(found) / found.mean()) if n > 1 and found.any() else math.nan
 
 
-def _mean_rate(dataset: xr.Dataset, energy: FloatArray) -> float:
+def _mean_rate(dataset: "xr.Dataset", energy: FloatArray) -> float:
     """Return the mean power [W] over the run from an energy since its start."""
     time = reading.column(dataset, "time")
     return float((energy[-1] - energy[0]) / (time[-1] - time[0])) if time[-1] > time[0] else math.nan
 
 
-def _of_limits(dataset: xr.Dataset) -> FloatArray:
+def _of_limits(dataset: "xr.Dataset") -> FloatArray:
     """Return efforts of drives over their limits, shape (n_t, n); zero where there is none."""
     shares = [
         np.nan_to_num(reading.column(dataset, effort) / reading.column(dataset, f"{effort}_limit"))
@@ -51,7 +53,7 @@ def _of_limits(dataset: xr.Dataset) -> FloatArray:
     return np.hstack(shares or [np.zeros((dataset.sizes["time"], 1))])
 
 
-def _power(dataset: xr.Dataset) -> float:
+def _power(dataset: "xr.Dataset") -> float:
     """Return the mean power of the drives [W]: stored energy and heat by the energy balance, without loads.
 
     The work itself goes to and fro by many times as much, and the error of its sum over steps with it.
@@ -245,7 +247,7 @@ def _of_mode(
     label: str, unit: str, meaning: str, variable: str, reduce: Callable[[FloatArray], float], digits: int = 6
 ) -> ByPart:
     def made(mode: str) -> KeyResult:
-        def compute(dataset: xr.Dataset) -> float:
+        def compute(dataset: "xr.Dataset") -> float:
             number = [str(name) for name in dataset["mode"].values].index(mode)
             return reduce(reading.column(dataset, variable)[:, number])
 
