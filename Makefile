@@ -58,9 +58,10 @@ check: ready $(VENV)/.docs
 	$(MAKE) --jobs 2 --output-sync=target wheels docs paper lint
 	$(PYTEST) --dist loadfile -m long $(CHECKED)
 
-paper: ready
+# The manual shows the validation sets, too: they are computed once.
+paper: ready docs/_build/drawn/validation
 	$(BIN)/tribodyn reproduce -o out/reproduction --quiet
-	$(BIN)/tribodyn validate -o out/validation --quiet
+	cp -R docs/_static/generated/validation out
 
 wheels: ready
 	tools/try-wheel $(BIN)/python out/wheels
@@ -97,14 +98,14 @@ NUMBERS := docs/_static/generated/numbers.json
 pages: $(VENV)/.docs $(addprefix docs/_build/drawn/,measured validation bem mechanism_gallery)
 	$(BIN)/python docs/fill.py --numbers $(NUMBERS) --made docs/_static/generated
 
-docs: $(VENV)/.docs
+docs: $(VENV)/.docs docs/_build/drawn/validation
 	$(MAKE) --jobs 2 $(DRAWN) docs/_build/unread
 	$(BIN)/python docs/fill.py --check --numbers $(NUMBERS) --made docs/_static/generated
 	$(BIN)/sphinx-build -W --keep-going -j 2 -b html docs $(DOCS)
 	@echo "Open $(DOCS)/index.html"
 
 # What the program draws and prints for the manual is made anew where the program has changed.
-docs/_build/drawn/%: docs/plots/%.py $(PROGRAM)
+docs/_build/drawn/%: docs/plots/%.py $(PROGRAM) | $(VENV)/.run
 	$(BIN)/python $< docs/_static/generated
 	@mkdir -p $(@D) && touch $@
 

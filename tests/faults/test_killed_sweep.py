@@ -28,9 +28,10 @@ SWEEP = [
 ]
 
 
-def started(folder: Path) -> subprocess.Popen[str]:
+def started(folder: Path, *more: str) -> subprocess.Popen[str]:
     # A session of its own: a signal to the group reaches the workers too, as Ctrl-C on a terminal does.
-    return subprocess.Popen(SWEEP, cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    command = [*SWEEP, *more]
+    return subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
 def wait_for(process: subprocess.Popen[str], text: str) -> None:
@@ -59,7 +60,7 @@ def finished(folder: Path) -> dict[str, str]:
 
 def assert_whole(folder: Path, before: dict[str, str]) -> None:
     """Run the sweep again: it keeps what was there, and ends with all points."""
-    again = subprocess.run(SWEEP, cwd=folder, capture_output=True, text=True, check=True)
+    again = subprocess.run([*SWEEP, "--no-figures"], cwd=folder, capture_output=True, text=True, check=True)
     assert f"computing {POINTS - len(before)} of {POINTS} points" in again.stderr
     after = finished(folder)
     assert len(after) == POINTS
@@ -68,7 +69,7 @@ def assert_whole(folder: Path, before: dict[str, str]) -> None:
 
 
 def test_killing_a_worker_and_then_the_sweep_loses_and_repeats_nothing(tmp_path: Path) -> None:
-    process = started(tmp_path)
+    process = started(tmp_path, "--no-figures")
     wait_for(process, "10 %")
     victim, *_ = workers(process)
     victim.kill()
