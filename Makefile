@@ -116,7 +116,7 @@ docs/_build/unread: $(PROGRAM)
 	@mkdir -p $(@D) && touch $@
 
 bench: $(VENV)/.bench
-	$(BIN)/python -m benchmarks.work_precision
+	$(BIN)/python -m benchmarks.solver.work_precision
 	$(BIN)/python -m benchmarks
 
 lock:

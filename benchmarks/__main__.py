@@ -1,7 +1,8 @@
 """Run benchmarks: ``python -m benchmarks [NAME ...]``; all of them without a name.
 
-Each is a module here with a function ``run`` that prints and returns what it found. ``benchmarks.json`` in
-the manual's folder collects it, with the machine it was found on; manual and figure are made from that file.
+Each is a module in a folder here with a function ``run`` that prints and returns what it found.
+``benchmarks.json`` in the manual's folder collects it, with the machine it was found on; manual and figure
+are made from that file.
 """
 
 from __future__ import annotations
@@ -13,32 +14,33 @@ import platform
 import sys
 import time
 from pathlib import Path
+from types import ModuleType
 from typing import Final
 
 from benchmarks.figure import draw
 
-#: Every benchmark once: to add one, write a module with ``run`` and name it here.
-NAMES: Final = (
-    "joint_kernel",
-    "vsv",
-    "mechanism",
-    "equal_errors",
-    "film",
-    "growth",
-    "costs",
-    "long_run",
-    "command",
-    "sweep",
-    "ring",
-    "workbench",
-    "cash",
-    "kinks",
-    "random_machines",
-    "static_machines",
-    "options",
-)
+#: Every benchmark once, and its folder: to add one, write a module with ``run`` and name it here.
+NAMES: Final = {
+    "joint_kernel": "vane",
+    "vsv": "vane",
+    "mechanism": "mechanisms",
+    "equal_errors": "vane",
+    "film": "vane",
+    "growth": "vane",
+    "costs": "program",
+    "long_run": "vane",
+    "command": "program",
+    "sweep": "program",
+    "ring": "mechanisms",
+    "workbench": "program",
+    "cash": "solver",
+    "kinks": "vane",
+    "random_machines": "mechanisms",
+    "static_machines": "mechanisms",
+    "options": "mechanisms",
+}
 #: Those that take hours, each a command of its own.
-BY_HAND: Final = ("builds",)
+BY_HAND: Final = {"builds": "mechanisms"}
 TARGET: Final = Path(__file__).parents[1] / "docs" / "_static" / "benchmarks.json"
 
 
@@ -48,11 +50,16 @@ def main(names: list[str]) -> None:
     for name in names or NAMES:
         print(f"== {name}", flush=True)
         before, began = os.getloadavg()[0], time.perf_counter()
-        measured = importlib.import_module(f"benchmarks.{name}").run()
+        measured = module(name).run()
         found[name] = {"on": machine(), "load": before, "took": time.perf_counter() - began, **measured}
         print(f"took {found[name]['took']:.0f} s", flush=True)
         TARGET.write_text(json.dumps(found, indent=1), encoding="utf-8")
     draw(found, TARGET.with_suffix(".svg"))
+
+
+def module(name: str) -> ModuleType:
+    """Return the module of a benchmark."""
+    return importlib.import_module(f"benchmarks.{(NAMES | BY_HAND)[name]}.{name}")
 
 
 def machine() -> str:

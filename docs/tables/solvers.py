@@ -1,6 +1,7 @@
 """Tables that compare the MEBDF with other stiff solvers.
 
-They show what ``python -m benchmarks``, ``benchmarks.work_precision`` and ``benchmarks.dae_peers`` found.
+They show what ``python -m benchmarks``, ``benchmarks.solver.work_precision`` and
+``benchmarks.solver.dae_peers`` found.
 """
 
 from __future__ import annotations

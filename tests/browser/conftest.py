@@ -18,7 +18,7 @@ from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, Reque
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 import tribodyn as td
-from benchmarks.workbench_page import OPTIONS
+from benchmarks.program.workbench_page import OPTIONS
 from tribodyn.figures.chart import save
 from tribodyn.papers.cheng_2022.reduced.figures import FIGURES
 from tribodyn.report import write

@@ -1,10 +1,10 @@
-"""Builds that are killed with their workers and called again; ``python -m benchmarks.builds killed 1000``."""
+"""Builds that are killed with their workers and called again, as ``benchmarks/mechanisms/builds.py`` does."""
 
 from pathlib import Path
 
 import pytest
 
-from benchmarks.builds import KILLS, killed
+from benchmarks.mechanisms.builds import KILLS, killed
 
 
 @pytest.mark.long

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from benchmarks.static_machines import SAME, STATIC, loop, swinging
+from benchmarks.mechanisms.static_machines import SAME, STATIC, loop, swinging
 from tribodyn.mechanism.analyses.led_loads import LedLoads
 from tribodyn.mechanism.analyses.statics import _snaps
 from tribodyn.mechanism.assembly import start

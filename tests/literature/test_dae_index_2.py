@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks import dae
-from benchmarks.dae_index_2 import PUBLISHED, pump, slider_crank, stabilised_caraxis
+from benchmarks.solver import dae
+from benchmarks.solver.dae_index_2 import PUBLISHED, pump, slider_crank, stabilised_caraxis
 
 #: The car axis starts with multipliers of zero; its own are 5e-9 and 1e-9.
 pytestmark = pytest.mark.filterwarnings("ignore:The values at t = 0 were not consistent")

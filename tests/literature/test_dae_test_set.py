@@ -1,7 +1,8 @@
 """Differential-algebraic problems of the IVP Test Set at every tolerance, beside Cash's own codes.
 
-Problems, end points and published runs: ``benchmarks/dae_problems.py``, ``benchmarks/dae.py``. Rounding moves
-the digits at one tolerance; what is asked are means over the tolerances and slopes through them.
+Problems, end points and published runs: ``benchmarks/solver/dae_problems.py``,
+``benchmarks/solver/dae.py``. Rounding moves the digits at one tolerance; what is asked are means over the
+tolerances and slopes through them.
 """
 
 import sys
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.dae import PROBLEMS, PUBLISHED, beside, solve
+from benchmarks.solver.dae import PROBLEMS, PUBLISHED, beside, solve
 
 #: The car axis starts with multipliers of zero; its own are 5e-9 and 1e-9.
 pytestmark = pytest.mark.filterwarnings("ignore:The values at t = 0 were not consistent")

@@ -1,7 +1,7 @@
 """Stiff problems of the IVP Test Set: solved at every tolerance, with the digits asked for.
 
-Problems and end points: ``benchmarks/problems.py``. The ring modulator takes longer than the others together
-and is left to the benchmark.
+Problems and end points: ``benchmarks/solver/problems.py``. The ring modulator takes longer than the others
+together and is left to the benchmark.
 
 Rounding decides which steps are taken, and with them the digits of a run: two processors differ by up to two
 digits at one tolerance. What is asked here are means over sixteen tolerances a decade, and slopes through all
@@ -17,10 +17,10 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.cash import COSTS, run
-from benchmarks.mebdf_native import mebdf
-from benchmarks.problems import PROBLEMS
-from benchmarks.published import nand
+from benchmarks.solver.cash import COSTS, run
+from benchmarks.solver.mebdf_native import mebdf
+from benchmarks.solver.problems import PROBLEMS
+from benchmarks.solver.published import nand
 from mebdf import solve_dae
 
 DECADES, A_DECADE = 8, 16

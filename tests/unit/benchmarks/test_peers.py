@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 
 import numpy as np
 import pytest
 
-from benchmarks.__main__ import BY_HAND, NAMES
-from benchmarks.numpy_vsv import NumpyVsv
-from benchmarks.vsv_case import NATIVE, one, problem_of, vsv_case
+from benchmarks.__main__ import BY_HAND, NAMES, module
+from benchmarks.vane.numpy_vsv import NumpyVsv
+from benchmarks.vane.vsv_case import NATIVE, one, problem_of, vsv_case
 
 
 @pytest.mark.parametrize("t", [0.0, 0.5, 2.0, 4.0])
@@ -41,8 +40,8 @@ def test_cvode_takes_the_same_steps_from_compiled_code_as_from_python() -> None:
 
 def test_the_model_in_exudyn_is_the_same_mechanism() -> None:
     pytest.importorskip("exudyn")
-    from benchmarks.peers import with_exudyn
-    from benchmarks.vsv_case import errors
+    from benchmarks.vane.peers import with_exudyn
+    from benchmarks.vane.vsv_case import errors
 
     cycles = 0.06
     surface = errors(with_exudyn("surface", 5e-4, cycles), one("mebdf", 1e-4, cycles=cycles))
@@ -75,6 +74,6 @@ LASTING = (
     ],
 )
 def test_a_benchmark_runs(name: str) -> None:
-    found = importlib.import_module(f"benchmarks.{name}").run(quick=True)
+    found = module(name).run(quick=True)
     assert found
     json.dumps(found)

@@ -11,8 +11,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 sys.path.insert(0, str(Path(__file__).parents[3]))
-from benchmarks.dae_problems import pendulum
-from benchmarks.problems import PROBLEMS
+from benchmarks.solver.dae_problems import pendulum
+from benchmarks.solver.problems import PROBLEMS
 from mebdf import MEBDF, solve_dae
 
 

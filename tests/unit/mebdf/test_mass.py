@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.sparse import csr_array, diags_array
 
 sys.path.insert(0, str(Path(__file__).parents[3]))
-from benchmarks.dae_problems import pendulum, transistor
+from benchmarks.solver.dae_problems import pendulum, transistor
 from mebdf import MEBDF
 
 RATES = np.array([[-2.0, 1.0], [1.0, -3.0]])

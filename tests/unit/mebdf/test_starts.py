@@ -14,7 +14,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import aslinearoperator
 
 sys.path.insert(0, str(Path(__file__).parents[3]))
-from benchmarks.dae_problems import pendulum
+from benchmarks.solver.dae_problems import pendulum
 from mebdf import MEBDF
 
 

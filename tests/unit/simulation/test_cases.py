@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 import tribodyn as td
-from benchmarks.vsv_case import problem_of, vsv_case
+from benchmarks.vane.vsv_case import problem_of, vsv_case
 from tribodyn import load_case, simulate
 from tribodyn.cases import Case
 from tribodyn.cli.main import main

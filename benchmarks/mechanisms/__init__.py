@@ -1,0 +1,1 @@
+"""Mechanisms of users: random ones, rings of vanes, chains."""

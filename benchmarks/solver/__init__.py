@@ -1,0 +1,1 @@
+"""The solver, beside Cash's own codes, SUNDIALS and SciPy."""

@@ -1,0 +1,1 @@
+"""The vane mechanism and its kernels, beside other integrators, NumPy and Exudyn."""
