@@ -14,7 +14,7 @@ PROGRAM := $(shell find src packages -name '*.py' -o -name '*.toml' -o -name '*.
 # small: a second thread for each of them takes time from another test.
 PYTEST := PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 3 --dist worksteal
 # What `make test` leaves out of these, `make check` runs each day, and the seventh not again.
-CHECKED := tests/unit/validation tests/unit/docs tests/faults/test_elsewhere.py tests/browser/test_manual.py
+CHECKED := tests/unit/validation tests/unit/docs tests/faults/processes/test_elsewhere.py tests/browser/test_manual.py
 NUMERICAL := $(addprefix tests/,analytic faults golden literature order)
 
 .DELETE_ON_ERROR:

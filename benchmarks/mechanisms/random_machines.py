@@ -2,9 +2,10 @@
 
     python -m benchmarks random_machines
 
-The machines are those of ``tests/faults/test_random_physics.py``, by their seeds. ``MECHANISM`` says nothing
-of what lies under its asperities; ``RIGID`` are the first of these with nothing that yields, ``ELASTIC`` with
-elastic bodies, ``LOSSY`` with bodies as lossy as asperities. All are compared with the rigid ones one by one.
+The machines are those of ``tests/faults/mechanisms/test_random_physics.py``, by their seeds. ``MECHANISM``
+says nothing of what lies under its asperities; ``RIGID`` are the first of these with nothing that yields,
+``ELASTIC`` with elastic bodies, ``LOSSY`` with bodies as lossy as asperities. All are compared with the rigid
+ones one by one.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ import numpy as np
 
 import tribodyn.accessor  # noqa: F401
 
-SOURCE: Final = Path(__file__).parents[2] / "tests" / "faults" / "test_random_physics.py"
+SOURCE: Final = Path(__file__).parents[2] / "tests" / "faults" / "mechanisms" / "test_random_physics.py"
 #: How many machines of each kind are drawn.
 COUNTS: Final = {"MECHANISM": 500, "RIGID": 120, "ELASTIC": 120, "LOSSY": 120, "UNDAMPED": 25, "DRY": 100}
 #: Key results that elastic bodies may change.

@@ -3,9 +3,9 @@
     python -m benchmarks static_machines
     python -m benchmarks.mechanisms.static_machines hysteresis [[FIRST] END]
 
-The mechanisms are the flat loops of ``tests/faults/random_mechanisms.py`` by their seeds, with the path of
-the last body as output. Those without a drive that prescribes a motion get one. A run that takes longer than
-``LIMIT`` is stopped; both errors are then those of the time that it reached.
+The mechanisms are the flat loops of ``tests/faults/mechanisms/random_mechanisms.py`` by their seeds, with the
+path of the last body as output. Those without a drive that prescribes a motion get one. A run that takes
+longer than ``LIMIT`` is stopped; both errors are then those of the time that it reached.
 
 With ``hysteresis`` their cranks swing slowly, and both runs have friction that holds at rest, developed at a
 ten-thousandth of their speed. The width of the loop is the error on the way there less that on the way back,
@@ -24,7 +24,7 @@ from typing import Any, Final
 
 import numpy as np
 import xarray as xr
-from tests.faults.random_mechanisms import flat_loop
+from tests.faults.mechanisms.random_mechanisms import flat_loop
 
 import tribodyn as td
 from benchmarks.mechanisms.random_machines import quantiles

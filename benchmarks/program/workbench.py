@@ -29,7 +29,7 @@ DRAG: Final = 20.0  #: How long a slider is dragged [s].
 SOCKETS: Final = 20
 MINUTES: Final = 10.0
 ROOT: Final = Path(__file__).parents[2]
-_HOSTILE: Final = ("tests/faults/test_hostile_workbench.py", "-k", "many or ten_thousand")
+_HOSTILE: Final = ("tests/faults/processes/test_hostile_workbench.py", "-k", "many or ten_thousand")
 
 
 class Bound(NamedTuple):

@@ -73,15 +73,38 @@ class RSDC(KogutEtsion):
         return np.divide(plastic, elastic, out=np.zeros_like(plastic), where=plastic > 0.0)
 
     def meant_restitution(self, h_star: FloatArray) -> FloatArray:
-        """Return e = 1/√(μ + 1), or the restitution asked for [1], shape of ``h_star`` [1]."""
+        """Return e = 1/√(μ + 1), or the restitution asked for.
+
+        Parameters
+        ----------
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [1], shape of ``h_star``.
+        """
         if self.restitution is not None:
             return super().meant_restitution(h_star)
         return np.asarray(1.0 / np.sqrt(self.loss_factor(h_star) + 1.0))
 
     def damping_for(self, ratio: FloatArray, h_star: FloatArray) -> FloatArray:
-        """Return C = (4/3)a·Eξ√β σ^1.5 ∫_0^∞ s^1.5 Φ(h* + s) ds [Pa] for the ratio (4/3)a of the factor [1].
+        """Return C = (4/3)a·Eξ√β σ^1.5 ∫_0^∞ s^1.5 Φ(h* + s) ds.
 
         With the Lankarani-Nikravesh factor (4/3)a = 1 − e² = μ/(μ + 1), which is Eq. 10.
+
+        Parameters
+        ----------
+        ratio
+            (4/3)a of the damping factor [1], shape of ``h_star``.
+        h_star
+            Separation over the roughness h* [1], any shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            [Pa], shape of ``h_star``.
         """
         pair = self.summits
         stress = pair.composite_modulus * pair.asperity_parameter

@@ -16,7 +16,7 @@ SOURCE = Path(tribodyn.__file__).parent
 PAGE = Path(__file__).parents[3] / "CONTRIBUTING.md"
 #: Tests over the lists of elements, of types of joints with shapes of their clearances, and of laws.
 OVER_ELEMENTS, OVER_JOINTS = "tests/unit/mechanism/test_elements.py", "tests/unit/mechanism/test_joints.py"
-OVER_LAWS = ("tests/analytic/test_contact_limits.py", "tests/unit/contact/test_laws.py")
+OVER_LAWS = ("tests/analytic/joints/test_contact_limits.py", "tests/unit/contact/test_laws.py")
 RUN = """
 import numpy as np, tribodyn as td
 from tribodyn.cases.load import parse

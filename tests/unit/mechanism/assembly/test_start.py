@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.faults.impossible_mechanisms import twins
+from tests.faults.mechanisms.impossible_mechanisms import twins
 from tests.unit.mechanism.slider_crank import IDEAL, parsed
 
 import tribodyn as td

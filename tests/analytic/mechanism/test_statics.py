@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
-from tests.analytic.test_outputs import BAR, CRANK, ROD, closed_form, of, press
-from tests.faults.random_mechanisms import flat_loop
+from tests.analytic.mechanism.test_outputs import BAR, CRANK, ROD, closed_form, of, press
+from tests.faults.mechanisms.random_mechanisms import flat_loop
 
 import tribodyn as td
 from tribodyn.core.errors import InputError, TribodynError

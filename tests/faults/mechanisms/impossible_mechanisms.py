@@ -11,8 +11,8 @@ from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from tests.faults import random_mechanisms as drawings
-from tests.faults.random_mechanisms import SHAPES, Chance, Drawing, around, direction
+from tests.faults.mechanisms import random_mechanisms as drawings
+from tests.faults.mechanisms.random_mechanisms import SHAPES, Chance, Drawing, around, direction
 
 #: What a refusal says, one of them.
 WORDS: Final = ("does not close", "has nothing to drive", "drive one freedom", "nothing holds body")

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from tests.analytic.full_system import assert_solved
+from tests.analytic.vane.full_system import assert_solved
 from tests.journals import BORE
 
 import tribodyn as td

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.analytic.full_system import AGREE, assert_solved
+from tests.analytic.vane.full_system import AGREE, assert_solved
 
 from tribodyn.kernels.vsv import functions
 from tribodyn.kernels.vsv.equations import drive_moment

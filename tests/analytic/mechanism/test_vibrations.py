@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from tests.analytic.test_outputs import BAR, CRANK, ROD, of
+from tests.analytic.mechanism.test_outputs import BAR, CRANK, ROD, of
 
 import tribodyn as td
 from tribodyn.core.errors import TribodynError

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.analytic.test_outputs import CRANK, ROD, press
+from tests.analytic.mechanism.test_outputs import CRANK, ROD, press
 
 import tribodyn as td
 from tribodyn.core.errors import InputError

@@ -25,7 +25,7 @@ from tribodyn.report.parallel import points_of
 from tribodyn.simulation import simulate
 
 SOURCES = [Path(package.__file__).parent for package in (mebdf, tribodyn)]
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__"}
 #: Files that unpickle what comes through a pipe between a process and the workers that it started.
 OWN_PIPES = {"tribodyn/studies/local.py"}

@@ -18,7 +18,7 @@ from tribodyn.contact import Liner, law
 from tribodyn.joints import contact_table
 from tribodyn.joints.bushing import joint_wrench
 
-SCRIPT = Path(__file__).parents[2] / "docs" / "plots" / "liner.py"
+SCRIPT = Path(__file__).parents[3] / "docs" / "plots" / "liner.py"
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from tests.faults.impossible_mechanisms import IMPOSSIBLE, RIGHT, WORDS, applied, twins
-from tests.faults.random_mechanisms import Drawing
-from tests.faults.test_random_mechanisms import BEYOND
-from tests.faults.test_random_physics import chunks
+from tests.faults.mechanisms.impossible_mechanisms import IMPOSSIBLE, RIGHT, WORDS, applied, twins
+from tests.faults.mechanisms.random_mechanisms import Drawing
+from tests.faults.mechanisms.test_random_mechanisms import BEYOND
+from tests.faults.mechanisms.test_random_physics import chunks
 
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.assembly import decompositions

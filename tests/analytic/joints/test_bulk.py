@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from tests.faults.random_mechanisms import drawn
-from tests.faults.test_random_mechanisms import BEYOND, wrong
+from tests.faults.mechanisms.random_mechanisms import drawn
+from tests.faults.mechanisms.test_random_mechanisms import BEYOND, wrong
 
 import tribodyn as td
 from tribodyn.contact import RSDC, SurfacePair, lined, tabulate

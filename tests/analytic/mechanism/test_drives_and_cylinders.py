@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.analytic.test_drives import INERTIA, slide, wheel
+from tests.analytic.mechanism.test_drives import INERTIA, slide, wheel
 
 import tribodyn as td
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism

@@ -12,7 +12,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-SCRIPT = Path(__file__).parents[2] / "docs" / "plots" / "bem.py"
+SCRIPT = Path(__file__).parents[3] / "docs" / "plots" / "bem.py"
 #: Pressure over modulus and gradient: real areas of 2.5 % and 22 %. At smaller loads a piece of this size has
 #: so few high summits that the ratio scatters by 20 % from piece to piece; here by 6 % and by 1 %.
 LOADS = np.array([1e-2, 1e-1])

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from tests.faults.random_mechanisms import Drawing, drawn
-from tests.faults.test_random_physics import chunks
+from tests.faults.mechanisms.random_mechanisms import Drawing, drawn
+from tests.faults.mechanisms.test_random_physics import chunks
 
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.self_checks import ENERGY_LIMIT

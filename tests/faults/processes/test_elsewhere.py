@@ -22,7 +22,7 @@ from tests.unit.cli.test_workbench import asked
 from tribodyn.cli.main import main
 from tribodyn.core import platforms
 
-HOOK = Path(__file__).parent / "elsewhere"
+HOOK = Path(__file__).parents[1] / "elsewhere"
 SOURCES = Path(platforms.__file__).parents[1]
 LONG = 300.0  #: Longest that a command may take on a busy machine [s].
 SHORT = ("slider-crank", "--set", "run.duration=20 ms")

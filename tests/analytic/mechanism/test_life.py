@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from tests.analytic.test_outputs import of, press
+from tests.analytic.mechanism.test_outputs import of, press
 
 import tribodyn as td
 from tribodyn.core.errors import TribodynError
