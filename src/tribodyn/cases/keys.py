@@ -4,15 +4,13 @@ They are collected from the models, whose fields :mod:`tribodyn.cases.fields` de
 themselves in ``tribodyn show`` and in the user guide.
 """
 
-from __future__ import annotations
-
 import importlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Literal, TypeAlias, Union, get_args, get_origin
+from typing import Literal, Self, TypeAlias, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -75,7 +73,7 @@ class Key:
     #: The limits as numbers (SI), each after its name: ``gt``, ``ge``, ``lt`` or ``le``.
     bounds: tuple[tuple[str, float], ...] = ()
 
-    def at(self, path: str) -> Key:
+    def at(self, path: str) -> Self:
         """Return the same key at another dotted path; large cases have some ten thousand keys."""
         made = object.__new__(type(self))
         made.__dict__.update(self.__dict__, path=path)

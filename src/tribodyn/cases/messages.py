@@ -1,7 +1,5 @@
 """Messages on unknown keys, on values that contradict each other, and on doubtful values."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -170,7 +168,7 @@ class Remarks:
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def __add__(self, other: Remarks) -> Remarks:
+    def __add__(self, other: "Remarks") -> "Remarks":
         """Return these and others."""
         return Remarks(self.warnings + other.warnings, self.notes + other.notes)
 

@@ -6,8 +6,6 @@ same float as ``2e-05`` and a value in SI units reads back to the bit. The text 
 small grammar before pint sees the unit: nothing is ever evaluated as an expression.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Sequence
@@ -164,7 +162,7 @@ def rms_roughness(text: str) -> float:
     return to_si(text, "m") if factor is None else factor * to_si(length.lstrip("= "), "m")
 
 
-def _meant(scale: _Scale, number: Decimal, unit: str, like: str) -> str:
+def _meant(scale: "_Scale", number: Decimal, unit: str, like: str) -> str:
     """Return a correction for a kinematic viscosity and for turns in some time, else nothing."""
     wanted, given = dimension(like), scale.base
     if wanted == "viscosity" and given == _scale("m^2/s").base:

@@ -1,7 +1,5 @@
 """Output of commands: results on stdout; remarks, progress and a log of the work on stderr."""
 
-from __future__ import annotations
-
 import contextlib
 import logging
 import os
@@ -16,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Final, Protocol, TextIO
+from typing import Any, Final, Protocol, Self, TextIO
 
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, on_one_line, without_controls
@@ -30,7 +28,7 @@ class Console:
     json: bool = False  #: Whether stdout belongs to one JSON document.
 
     @classmethod
-    def of(cls, args: Namespace) -> Console:
+    def of(cls, args: Namespace) -> Self:
         """Return the console that the options ask for."""
         return cls(quiet=args.quiet, json=args.json)
 
@@ -145,7 +143,7 @@ class ProgressLines:
         self._shown = 0
         self._began = time.monotonic()
 
-    def __enter__(self) -> ProgressLines:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -187,7 +185,7 @@ class Bar:
             nrows=rows,
         )
 
-    def __enter__(self) -> Bar:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(

@@ -6,8 +6,6 @@ results can be saved it leaves word with an :class:`Interruption`, which is aske
 else, and at the second signal, it ends the process there and then.
 """
 
-from __future__ import annotations
-
 import atexit
 import os
 import shutil
@@ -17,7 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from types import FrameType
-from typing import Final
+from typing import Final, Self
 
 from tribodyn.core.platforms import HANGUP
 
@@ -49,7 +47,7 @@ class Interruption:
         self.listens = not self.requested
         return self.requested
 
-    def __enter__(self) -> Interruption:
+    def __enter__(self) -> Self:
         _met.listener = self
         return self
 

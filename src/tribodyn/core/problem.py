@@ -33,8 +33,6 @@ The question is set once around a run. Whatever computes for longer than a secon
 result needs raises, what a result can do without is skipped.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -143,7 +141,7 @@ class Problem:
     #: Returns the solution where states are not integrated but known or in equilibrium; its arguments are the
     #: times of rows and pictures [s] and what is called with each time reached. ``None`` for an initial value
     #: problem.
-    solved: Callable[[FloatArray, FloatArray, Callable[[float], None] | None], Solution] | None = None
+    solved: Callable[[FloatArray, FloatArray, Callable[[float], None] | None], "Solution"] | None = None
     #: ``sample(t, y)`` sets in the memory what is held until the next sampling time, and returns whether it
     #: has; ``None`` where nothing is.
     sample: Callable[[float, FloatArray], bool] | None = None

@@ -1,7 +1,5 @@
 """Times of an integration (starts, restarts, outputs, pictures), and rows collected at accepted steps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -154,7 +152,7 @@ class Followed:
             stretch = self._stretches.setdefault(k, _Stretch(self._n_kept, self._spare))
             self._add(stretch, int(first), int(last))
 
-    def _add(self, stretch: _Stretch, first: int, last: int) -> None:
+    def _add(self, stretch: "_Stretch", first: int, last: int) -> None:
         """Add rows to a stretch, thinned after a number of rows: what is kept hangs on no other visit."""
         while first < last:
             end = min(last, first + self._full - stretch.n)
@@ -187,7 +185,7 @@ class Followed:
                 first += len(block)
         return every[order], rows
 
-    def _chosen(self, stretch: _Stretch) -> NDArray[np.intp]:
+    def _chosen(self, stretch: "_Stretch") -> NDArray[np.intp]:
         """Return the rows of a stretch that are kept."""
         if stretch.n <= self._most:
             return np.arange(stretch.n)

@@ -5,8 +5,6 @@ of the residuals. Every evaluation is kept in a file, so that an interrupted fit
 without computing anything twice.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math
@@ -15,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 import xarray as xr
@@ -59,7 +57,7 @@ class VariedKey:
     high: float
 
     @classmethod
-    def of(cls, case: Case, text: str, option: str = "--vary") -> VariedKey:
+    def of(cls, case: Case, text: str, option: str = "--vary") -> Self:
         """Return the request ``PATH=LOW..HIGH`` for a case."""
         path, equals, values = (part.strip() for part in text.partition("="))
         if not equals:

@@ -12,15 +12,13 @@ a 95 % interval::
     contact_force_mean_N, 18.3, 0.4
 """
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 import xarray as xr
@@ -114,7 +112,7 @@ class Measured:
         ends = np.cumsum([_values(part).size for part in self.parts])[:-1]
         return list(zip(self.parts, np.split(values, ends), strict=True))
 
-    def outside_impacts(self, run: xr.Dataset) -> Measured:
+    def outside_impacts(self, run: xr.Dataset) -> Self:
         """Return the data without times in the impacts of a run, which do not converge."""
         windows = impact_windows(run)
         return replace(self, parts=tuple(_outside(part, windows) for part in self.parts))

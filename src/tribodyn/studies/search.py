@@ -1,14 +1,12 @@
 """The last value of a parameter at which a key result keeps a limit: a root found with few runs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Final
+from typing import Final, Self
 
 import xarray as xr
 
@@ -50,7 +48,7 @@ class Limit:
         """Return whether a number keeps the limit."""
         return number >= self.value if self.at_least else number <= self.value
 
-    def of(self, number: float) -> Limit:
+    def of(self, number: float) -> Self:
         """Return the limit in the unit of the number, which the case as it is has so."""
         if not self.relative:
             return self

@@ -9,8 +9,6 @@ Slopes and curvatures are seven-point central differences. The rule errs by (2π
 (curvature) of its value: for waves of 8 points by 0.17 % and 0.04 %, for waves of 5 by 2.8 % and 0.7 %.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Final
@@ -82,7 +80,7 @@ class Moments:
     resolved: float = 1.0
     directional: Directional | None = None  #: What a map says of directions; None for a profile.
 
-    def __add__(self, other: Moments) -> Moments:
+    def __add__(self, other: "Moments") -> "Moments":
         """Return the moments of the sum of two independent surfaces, which is the gap between them."""
         coarse = self.resolved * self.m4 + other.resolved * other.m4
         m4 = self.m4 + other.m4

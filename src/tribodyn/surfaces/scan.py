@@ -1,11 +1,9 @@
 """A measured surface: heights on a regular grid."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Final, TypeAlias
+from typing import Final, Self, TypeAlias
 
 import numpy as np
 
@@ -63,7 +61,7 @@ class Scan:
         """Share of points without a height [1]."""
         return float(np.mean(np.isnan(self.heights))) if self.heights.size else 1.0
 
-    def with_heights(self, heights: FloatArray) -> Scan:
+    def with_heights(self, heights: FloatArray) -> Self:
         """Return the same grid with other heights.
 
         Parameters
@@ -83,7 +81,7 @@ class Scan:
         """
         return replace(self, heights=heights)
 
-    def transposed(self) -> Scan:
+    def transposed(self) -> Self:
         """Return the surface with its axes swapped.
 
         Returns

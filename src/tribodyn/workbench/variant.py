@@ -1,14 +1,12 @@
 """Cases that a page requests: a case with changed values, all that is said about it, and its neighbours."""
 
-from __future__ import annotations
-
 import hashlib
 import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cached_property
-from typing import Final
+from typing import Final, Self
 
 from tribodyn.cases.case import Case
 from tribodyn.cases.keys import Key
@@ -43,7 +41,7 @@ class Origin:
         """Keys of the case and components of its vectors, by dotted path."""
         return with_components(keys_in(self.case))
 
-    def varied(self, values: Mapping[str, str]) -> Variant:
+    def varied(self, values: Mapping[str, str]) -> "Variant":
         """Return the case with other values.
 
         Raises InputError if a value cannot be, or names a file.
@@ -81,7 +79,7 @@ class Variant:
         """Name of the run: that of every case with this very text."""
         return hashlib.sha256(self.toml.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGITS]
 
-    def filled(self) -> Variant:
+    def filled(self) -> Self:
         """Return itself with all texts that are made of it, which can take as long as reading the case."""
         _ = self.run, self.header
         return self

@@ -4,13 +4,11 @@ Every wall is a face of the block, on which the gap is the same as drawn. Turned
 touches at the ends of its faces and at their edges.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 
@@ -85,7 +83,7 @@ class Guide:
         """Largest distance of a wall from the axis [m]: that of a bore in the place of the channel."""
         return max(wall.distance for wall in self.walls)
 
-    def grown_by(self, hot: Callable[[float], float]) -> Guide:
+    def grown_by(self, hot: Callable[[float], float]) -> Self:
         """Return the guide at temperatures at which a wall at a distance has the clearance ``hot`` [m]."""
         most = hot(self.radius)
         return replace(self, clearance=most, grown=tuple(hot(wall.distance) - most for wall in self.walls))

@@ -4,8 +4,6 @@ A run has a breakpoint at each sampling time. There outputs are computed from th
 them they are constants of the force laws, so an integrator sees nothing of controllers.
 """
 
-from __future__ import annotations
-
 import inspect
 import math
 from collections.abc import Iterator
@@ -51,7 +49,7 @@ def sampled(problem: Problem, model: Model, outputs: tuple[Output, ...]) -> Prob
     return replace(problem, breakpoints=tuple(breakpoints.tolist()), sample=sample)
 
 
-def _loops(model: Model, outputs: tuple[Output, ...], duration: float) -> Iterator[Loop]:
+def _loops(model: Model, outputs: tuple[Output, ...], duration: float) -> Iterator["Loop"]:
     """Yield the control loops of a mechanism."""
     coupling = model.first_leg
     for element in model.elements:

@@ -3,8 +3,6 @@
 One file because all that assembly asks of these matrices shares the bodies that it moves.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cached_property
 from typing import Any, Final, TypeAlias
@@ -110,7 +108,7 @@ class System:
         solution.set_offsets(self.parts, self.now)
         self.refresh()
 
-    def take_positions(self, other: System) -> None:
+    def take_positions(self, other: "System") -> None:
         """Take over where the bodies of another system are."""
         for name in ("r", "p", "A"):
             self.now.bodies[name][:] = other.now.bodies[name]

@@ -1,7 +1,5 @@
 """Decompositions of a mechanism's matrices, kept by place: dense, and QR of sparse rows for their rank."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -275,7 +273,7 @@ def with_unit_rows(matrix: FloatArray) -> FloatArray:
     return np.asarray(matrix / np.where(length == 0.0, 1.0, length))
 
 
-def row_space(matrix: FloatArray, rank: int) -> RowSpace | SparseRowSpace:
+def row_space(matrix: FloatArray, rank: int) -> "RowSpace | SparseRowSpace":
     """Return the spaces that rows of length one (m, n), of known rank, hold and leave free."""
     found = factors(matrix)
     return RowSpace(matrix, rank) if found is None or found.rank != rank else SparseRowSpace(found)

@@ -3,8 +3,6 @@
 Bodies and joints are counted from 0 in the order of the case.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -133,26 +131,26 @@ class Model:
         return f"{element.keys.METHOD} {element.name}", tuple(bodies)
 
     @property
-    def as_drawn(self) -> Model:
+    def as_drawn(self) -> "Model":
         """The mechanism in which every joint is the ideal one of its type."""
         return Model(self.case, held={**self.elastic, **self.held})
 
     @property
-    def counterpart(self) -> Model:
+    def counterpart(self) -> "Model":
         """The mechanism as the clearances vanish: every joint is the ideal one that holds the same."""
         return self._with_ideal(self.joints)
 
     @property
-    def without_play(self) -> Model:
+    def without_play(self) -> "Model":
         """The mechanism whose gears have no backlash."""
         return replace(self, case=self.case.without_play())
 
     @property
-    def without_films(self) -> Model:
+    def without_films(self) -> "Model":
         """The mechanism in which joints with an oil film are the ideal ones that hold the same."""
         return self._with_ideal([self.joints[number] for number in self.oiled])
 
-    def _with_ideal(self, names: Sequence[str]) -> Model:
+    def _with_ideal(self, names: Sequence[str]) -> "Model":
         """Return the mechanism with the ideal joints that hold the same in the place of some."""
         real = {name: clearance for name, clearance in self.clearances.items() if name not in names}
         held = {name: self.case.joints[name].ideal for name in self.clearances if name in names}

@@ -1,7 +1,5 @@
 """Keyword arguments of the builder, from the keys of a case: names, types, meanings, defaults."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -34,7 +32,7 @@ class Argument:
     text: str  #: Its meaning, what it may hold, and its default.
     required: bool  #: Whether it must be given.
 
-    def with_need(self, needed: bool) -> Argument:
+    def with_need(self, needed: bool) -> "Argument":
         """Return the same, which must be given if ``needed``."""
         return self if self.required or not needed else Argument(self.annotation, self.text, True)
 

@@ -1,7 +1,5 @@
 """Types of a claim, and the judgement of a measured number by bounds with their origins."""
 
-from __future__ import annotations
-
 import inspect
 import math
 import tomllib
@@ -9,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib.resources import files
-from typing import Final, Literal, NamedTuple, TypeAlias
+from typing import Final, Literal, NamedTuple, Self, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -62,7 +60,7 @@ class Bound:
             return "reproduced"
         return "differs" if self.partly[0] < value < self.partly[1] else "contradicted"
 
-    def with_margin(self, margin: float) -> Bound:
+    def with_margin(self, margin: float) -> Self:
         """Return the bound that a number must pass by a margin; this near to its limits it differs."""
         low, high = self.full
         wide = min(low - margin, self.partly[0]), max(high + margin, self.partly[1])
@@ -73,7 +71,7 @@ class Bound:
         """The finite ends of ``full``, at which a claim is not reproduced."""
         return tuple(edge for edge in self.full if math.isfinite(edge))
 
-    def scaled(self, factor: float) -> Bound:
+    def scaled(self, factor: float) -> Self:
         """Return the bound with its distance from ``origin`` scaled; one that the paper chose stays."""
         if self.by == "the paper":
             return self
