@@ -171,17 +171,19 @@ def test_the_report_adds_up_to_the_wrench(kind: str, kinds: dict[str, Clearance]
         np.testing.assert_allclose(total, out, rtol=0.0, atol=1e-13 * np.abs(out).max())
 
 
+def frictionless(kind: str, kinds: dict[str, Clearance], make_clearance: MakeClearance) -> SurfaceData:
+    """Return the data of a joint of a kind that has no friction."""
+    known = {"contact": kinds[kind].contact, "table": kinds[kind].table}
+    return assemble([make_clearance(kind.split(maxsplit=1)[0], coefficient=0.0, grid=(24, 6), **known)])
+
+
 @pytest.mark.parametrize(
     "kind", ["cylinder", "wide", "piston", "flanged", "annulus", "sphere", "ball", "cylinder at points"]
 )
 def test_a_journal_of_revolution_spins_freely_without_friction(kind, kinds, make_clearance):
     # Tilted and pressed, it may have no moment about its own axis: spinning changes no gap. With the angular
     # velocity instead of the rate of the tilt in the approach speeds it would have one, of first order in it.
-    shape = kind.split(maxsplit=1)[0]
-    frictionless = make_clearance(
-        shape, coefficient=0.0, grid=(24, 6), contact=kinds[kind].contact, table=kinds[kind].table
-    )
-    data = assemble([frictionless])
+    data = frictionless(kind, kinds, make_clearance)
     memory, out, still = remembering(data), np.empty(6), np.empty(6)
     for seed in range(6):
         d, rotation, v, _ = draw(kind, seed)
@@ -200,11 +202,7 @@ def test_a_journal_of_revolution_spins_freely_without_friction(kind, kinds, make
 def test_what_slides_is_free_to(kind, kinds, make_clearance):
     # However far along its axis, a shaft has the same gaps: no force on it along its axis, and the same
     # forces on the socket. A ball and a piston slide along the bore.
-    shape = kind.split(maxsplit=1)[0]
-    frictionless = make_clearance(
-        shape, coefficient=0.0, grid=(24, 6), contact=kinds[kind].contact, table=kinds[kind].table
-    )
-    data = assemble([frictionless])
+    data = frictionless(kind, kinds, make_clearance)
     memory, out, far = remembering(data), np.empty(6), np.empty(6)
     for seed in range(6):
         d, rotation, v, w = draw(kind, seed)

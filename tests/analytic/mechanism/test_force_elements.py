@@ -218,18 +218,16 @@ def test_a_joint_that_sticks_creeps_as_the_regularisation_says(share: float) -> 
     assert force(result, "element_moment")[-1] == pytest.approx(-0.2 * share, rel=1e-4)
 
 
+SEAL = {
+    **{"joint": "guide", "normal_load": "50 N", "stribeck_velocity": "20 mm/s"},
+    **{"friction_coefficient": 0.1, "static_coefficient": 0.2},
+}
+
+
 def test_a_block_breaks_away_at_static_friction() -> None:
     # A slow ramp; the largest force of the law, near μ_s N, at a speed between slip and Stribeck velocity.
     found = slider("1 s")
-    found.friction(
-        "seal",
-        joint="guide",
-        normal_load="50 N",
-        friction_coefficient=0.1,
-        static_coefficient=0.2,
-        stribeck_velocity="20 mm/s",
-        slip_velocity="0.1 mm/s",
-    )
+    found.friction("seal", **SEAL, slip_velocity="0.1 mm/s")
     found.drive("pull", "guide", force={"times": "0, 1 s", "values": "0, 12 N", "interpolation": "linear"})
     result = td.simulate(found.case())
     pull = 12.0 * result["time"].values
@@ -243,15 +241,7 @@ def test_a_block_breaks_away_at_static_friction() -> None:
 
 def test_the_force_over_speed_is_the_friction_law_of_the_project() -> None:
     found = slider("1 s", interval="10 ms")
-    found.friction(
-        "seal",
-        joint="guide",
-        normal_load="50 N",
-        friction_coefficient=0.1,
-        static_coefficient=0.2,
-        stribeck_velocity="20 mm/s",
-        viscous="30 N s/m",
-    )
+    found.friction("seal", **SEAL, viscous="30 N s/m")
     ramp = {"times": "0, 1 s", "values": "0, 0.1 m/s", "interpolation": "linear"}
     result = td.simulate(found.drive("pull", "guide", velocity=ramp).case())
     v = speed(result)

@@ -75,7 +75,7 @@ def brief() -> bytes:
     return netcdf_content(dataset)
 
 
-@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long(minutes=0.8))])
 def test_damaged_results_are_read_or_refused(count: int, brief: bytes, tmp_path: Path) -> None:
     whole, damaged = tmp_path / "whole.nc", tmp_path / "damaged.nc"
     whole.write_bytes(brief)

@@ -165,7 +165,7 @@ def check_file(folder, content):
     return status
 
 
-@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long(minutes=0.8))])
 class TestFuzz:
     def test_files_with_random_keys_and_values(self, count, tmp_path):
         @tried(count, st.sampled_from([*kinds(), "vvs"]), entries)

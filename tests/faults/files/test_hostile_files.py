@@ -172,7 +172,7 @@ def test_hostile_files_are_refused(part: int, count: int, tmp_path: Path, proces
     assert not bad, bad[:5]
 
 
-@pytest.mark.parametrize("length", [2_000_000, pytest.param(20_000_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("length", [2_000_000, pytest.param(20_000_000, marks=pytest.mark.long(minutes=0.8))])
 def test_texts_of_megabytes_are_refused_early(length: int, tmp_path: Path, process: Watched) -> None:
     for content in (b"1\n", b"1,", b",", b"#", b"\n", b"a\n"):
         (tmp_path / "scan.csv").write_bytes(content * length)

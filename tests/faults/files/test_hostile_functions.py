@@ -100,7 +100,7 @@ OURS = (
 )
 
 
-@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long(minutes=1.2))])
 def test_every_case_ends_with_a_sentence(count):
     for seed in range(count):
         with warnings.catch_warnings():

@@ -180,6 +180,10 @@ def test_reading_what_was_written(write: object) -> None:
     np.testing.assert_allclose(read_stl(write(CORNERS)), CORNERS, rtol=1e-7)  # type: ignore[operator]
 
 
+def test_capitals_are_text_too() -> None:
+    np.testing.assert_array_equal(read_stl(text(CORNERS).upper()), CORNERS)
+
+
 WHOLE = text(CORNERS)
 
 
