@@ -10,6 +10,7 @@ import ast
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import grimp
@@ -46,6 +47,13 @@ def test_no_module_imports_a_package_that_imports_it() -> None:
         if module.startswith(f"{imported}.") and graph.chain_exists(importer=imported, imported=module)
     ]
     assert not circles
+
+
+def test_no_folder_holds_more_than_25_files() -> None:
+    others = [path for top in ("tests", "benchmarks", "docs") for path in (ROOT / top).rglob("*.py")]
+    files = Counter(path.parent.relative_to(ROOT) for path in [*SOURCES, *others])
+    assert len(files) > 80
+    assert {str(folder): count for folder, count in files.items() if count > 25} == {}
 
 
 def test_long_files_say_why() -> None:
