@@ -93,7 +93,7 @@ def killed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     def until_saving(process: subprocess.Popen[str]) -> None:
         while not list(folder.glob(".*.part")) and process.poll() is None:
-            time.sleep(1e-4)
+            time.sleep(1e-3)
 
     def while_drawing(process: subprocess.Popen[str]) -> None:
         until_drawing(process)
