@@ -11,6 +11,7 @@ import pytest
 
 import tribodyn as td
 from benchmarks.mechanisms.static_machines import SAME, STATIC, loop, swinging
+from tribodyn.mechanism.analyses import statics
 from tribodyn.mechanism.analyses.led_loads import LedLoads
 from tribodyn.mechanism.analyses.statics import _snaps
 from tribodyn.mechanism.assembly import start
@@ -18,6 +19,7 @@ from tribodyn.mechanisms.results import summarise
 from tribodyn.results.reading import column
 
 MANY = 200
+FIRST = {"run.duration": "31.4 ms", "run.output_interval": "31.4 ms", "run.positions": 2}
 
 
 def missed(seed: int) -> float:
@@ -119,6 +121,34 @@ def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest
         ended, differences = loop(seed)
         assert ended == "complete", seed
         assert np.mean(differences) < SAME, seed
+
+
+@pytest.mark.parametrize("seed", [13, 75, 10, pytest.param(0, marks=pytest.mark.long)])
+def test_first_positions_are_found_with_all_pins_in_their_bores(seed: int) -> None:
+    """A turn about two balls carried pins out by its square; what slides freely went metres; press fits."""
+    result = td.simulate(swinging(seed).replace({**STATIC, **FIRST}))
+    assert result.attrs["failure"] == ""
+    assert result.sizes["time"] == 3
+    unbalance = next(float(note.split()[6]) for note in summarise(result)["notes"] if "forces on all" in note)
+    assert unbalance <= 1e-6
+    for name, joint in swinging(seed).joints.items():
+        if joint.clearance is not None:
+            off = np.hypot(*column(result, "displacement")[:, list(result.joint.values).index(name), :2].T)
+            assert np.max(off) < 2.0 * joint.clearance.radial, name
+
+
+@pytest.mark.long
+def test_shafts_walk_where_friction_along_the_ideal_motion_leaves_no_equilibrium() -> None:
+    result = td.simulate(swinging(0).replace({"run.analysis": "static", **FIRST}))
+    assert result.attrs["failure"] == ""
+    assert "at 1 positions and after them shafts walk as with friction.rest" in result.attrs["notes"]
+
+
+def test_a_search_without_an_end_says_which_body_is_off_balance(monkeypatch) -> None:
+    monkeypatch.setattr(statics, "settled", lambda loads, **keys: loads.look())
+    result = td.simulate(swinging(13).replace({**STATIC, **FIRST}))
+    for words in ("did not converge: loads on body coupler do not balance", "more positions", "dynamic run"):
+        assert words in result.attrs["failure"]
 
 
 def test_a_snap_is_ten_times_as_far_as_before_and_a_tenth_of_the_widest_clearance() -> None:

@@ -5,8 +5,8 @@ from functools import partial
 from typing import Final
 
 from tribodyn.core.problem import Problem
-from tribodyn.mechanism.analyses.kinematics import follow_drives, require_motion
-from tribodyn.mechanism.analyses.statics import find_equilibria, require_equilibria
+from tribodyn.mechanism.analyses.kinematics import follow_drives, require_closing, require_motion
+from tribodyn.mechanism.analyses.statics import find_equilibria, require_no_film
 from tribodyn.mechanism.analyses.vibrations import find_rest, require_freedom
 from tribodyn.mechanism.assembly.assembly import Assembly
 
@@ -44,5 +44,6 @@ def analysed(problem: Problem, assembly: Assembly, analysis: str, turn: float) -
     if analysis == "vibrations":
         require_freedom(assembly)
         return replace(problem, solved=partial(find_rest, assembly, problem))
-    require_equilibria(assembly)
+    require_closing(assembly)
+    require_no_film(assembly)
     return replace(problem, solved=partial(find_equilibria, assembly, turn, problem))

@@ -12,7 +12,7 @@ import numpy as np
 
 from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
-from tribodyn.kernels.mechanism.bodies import collect, place
+from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, VELOCITY, MechanismData
 from tribodyn.mechanism.analyses.linearised import NEVER_ENTERED, LinearEquations
 from tribodyn.mechanism.assembly.assembly import Assembly
@@ -21,7 +21,7 @@ from tribodyn.mechanism.assembly.equilibrium import JointLoads
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.passage import closes, placed
 from tribodyn.mechanism.assembly.positions import held
-from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions
+from tribodyn.mechanism.assembly.shaft_motions import ShaftMotions, applied
 
 #: Names of parameters of laws: where friction is developed, and the least speed at which contact begins.
 SLIP: Final = "slip_velocity"
@@ -29,6 +29,7 @@ ENTRY: Final = "least_rate"
 #: Factors of slip velocities: the friction of shafts that walk turns within a ten-millionth of a step, or a
 #: hundred-thousandth where there is no equilibrium otherwise.
 _BLURS: Final = (1.0e4, 1.0e3, 1.0e2, 1.0)
+_CORRECTIONS: Final = 3  #: By which shafts follow a step along freedoms.
 _FLAT: Final = 1.0e-9  #: Stiffness over the largest one that counts as zero.
 
 
@@ -148,15 +149,22 @@ class LedLoads(JointLoads):
         closes(self.real)
 
     def move(self, step: FloatArray) -> None:
-        """Displace the bodies by a step (m,); along freedoms ideal joints stay closed."""
+        """Displace the bodies by a step (m,); along freedoms joints stay closed, and shafts in their bores.
+
+        A turn by itself would carry pins away, by its square.
+        """
         self._before = self.state.copy()
-        super().move(step)
         if self.carried:
-            place(self.state, self.real.now.bodies)
-            self.real.refresh()
-            closes(self.real)
-            self.real.close()
-            collect(self.real.now.bodies, self.state)
+            self.ideal.put(self.state)
+            way = dense.product(self.ideal.matrix(), applied(self.motions, step))
+            meant = self.ideal.entries("residual") + way
+        super().move(step)
+        for _ in range(_CORRECTIONS if self.carried else 0):
+            self.ideal.put(self.state)
+            g, root, lengths = self.ideal.scaled()
+            missed = (meant - self.ideal.entries("residual")) / lengths
+            self.ideal.step(dense.product(root, self.ideal.solve(g, missed)))
+            collect(self.ideal.now.bodies, self.state)
 
     def undo(self, step: FloatArray) -> None:
         """Take back the last step (m,)."""

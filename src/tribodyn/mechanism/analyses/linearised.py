@@ -129,7 +129,11 @@ class Linearised:
                 step += self._limited(linear.motions @ (vectors[:, ~stiff] @ pushed[~stiff]), at_least=True)
             elif self._far(step) <= _STILL:
                 return state
-            state = self._moved(step)
+            self.system.step(step)
+            closes(self.system)
+            state = np.zeros(N_STATES * self.system.n)
+            collect(self.system.now.bodies, state)
+            state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
         return None
 
     def _far(self, step: FloatArray) -> float:
@@ -139,15 +143,6 @@ class Linearised:
         """Return a step no longer than the longest one, or just as long."""
         factor = _LONGEST / max(self._far(step), _TINY)
         return step * (factor if at_least else min(factor, 1.0))
-
-    def _moved(self, step: FloatArray) -> FloatArray:
-        """Return the state after a displacement (6 n,) from where the bodies are, with closed joints."""
-        self.system.step(step)
-        closes(self.system)
-        state = np.zeros(N_STATES * self.system.n)
-        collect(self.system.now.bodies, state)
-        state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
-        return state
 
 
 def _in_states(state: FloatArray, motions: FloatArray) -> FloatArray:

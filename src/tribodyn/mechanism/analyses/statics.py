@@ -26,16 +26,15 @@ from tribodyn.core.problem import Problem, Solution
 from tribodyn.kernels.mechanism.bodies import collect
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, VELOCITY
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
-from tribodyn.mechanism.analyses.kinematics import require_closing
 from tribodyn.mechanism.analyses.led_loads import LedLoads, developed
-from tribodyn.mechanism.analyses.linearised import Linearised
+from tribodyn.mechanism.analyses.linearised import NEVER_ENTERED, Linearised
 from tribodyn.mechanism.assembly.assembly import Assembly, assemble
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.mechanism_problem import fastest
 from tribodyn.mechanism.assembly.output_values import rotations
 from tribodyn.mechanism.assembly.passage import closes, lead, placed, where_drives_are
 from tribodyn.mechanism.assembly.positions import DrivePath, walked
-from tribodyn.mechanism.assembly.shaft_motions import products
+from tribodyn.mechanism.assembly.shaft_motions import applied, products
 from tribodyn.mechanism.assembly.start import settled
 from tribodyn.mechanisms.self_checks import TOO_CLOSE
 
@@ -57,16 +56,8 @@ _SNAPS: Final = (
     "a shaft snaps to another place: where it ends in slow motion depends on its inertia, too, and so may "
     "the loop after it"
 )
+_GOES_ON: Final = "and after them shafts walk as with friction.rest: nothing balances along the ideal motion"
 _NO_COSINE: Final = 1.0e-6  #: Least square of the cosine of half a rotation.
-
-
-def require_equilibria(assembly: Assembly) -> None:
-    """Refuse a mechanism that has no static equilibrium whatever the position.
-
-    Raises InputError if ideal joints cannot follow the drives, or an oil film carries a joint.
-    """
-    require_closing(assembly)
-    require_no_film(assembly)
 
 
 def require_no_film(assembly: Assembly) -> None:
@@ -127,6 +118,7 @@ class Middle:
         self.linear = Linearised(assemble(assembly.model.counterpart), times)
         self._leader = IdealMechanism(assembly, play=True)
         self.marks = self.linear.system.now.couplings.angle_mark.copy()
+        self._rests = True
 
     def at(self, t: float, ideal: FloatArray, *, anew: bool, must: bool = False) -> FloatArray | None:
         """Return the state at a time of the drives [s], shape (n_bodies, 13).
@@ -142,11 +134,14 @@ class Middle:
         collect(system.now.bodies, state)
         state.reshape(ideal.shape)[:, VELOCITY:] = 0.0
         centred.take_positions(system)
-        balanced = self.linear.balanced(t, state)
-        if balanced is None and must:
+        balanced = self.linear.balanced(t, state) if self._rests else None
+        self._rests = balanced is not None
+        if must and not self._rests:
             return None
+        # Where nothing holds a load along a freedom the search has led anywhere, and would again.
+        kept, other = (centred, system) if balanced is None else (system, centred)
+        kept.take_positions(other)
         state = state if balanced is None else balanced
-        system.take_positions(centred)
         self.marks = centred.now.couplings.angle_mark.copy()
         return np.asarray(state.reshape(ideal.shape))
 
@@ -193,7 +188,7 @@ class Equilibria:
         run = assembly.model.case.run
         asks = assembly.model.case.friction.rest or run.directions == "both"
         self._walks = asks and run.analysis == "static"
-        self.counts = dict.fromkeys((_JUMPS, _BLUNT, _SNAPS), 0)
+        self.counts = dict.fromkeys((_JUMPS, _BLUNT, _SNAPS, _GOES_ON), 0)
         self._wide = max((real.shape.clearance for real in assembly.model.clearances.values()), default=0.0)
         counterpart = placed(System(assembly.model.counterpart), assembly)
         rank = counterpart.independence()[0]
@@ -208,8 +203,9 @@ class Equilibria:
         equations = marks = None
         if self.middle is not None:
             equations, marks = self.middle.linear.at(t, ideal.ravel()), self.middle.marks
-        starts = [*(self._displaced(ideal, ways) for ways in self._expected()), ideal]
-        for walks, start in product((True, False) if self._walks else (False,), starts):
+        expected = [2.0 * last - before for before, last in pairwise(self._ways)] + self._ways[-1:]
+        starts = [*(self._displaced(ideal, ways) for ways in expected), ideal]
+        for walks, start in product(dict.fromkeys((self._walks, self._walks and not self._ways)), starts):
             self._walk(number, ideal, walks=walks)
             self._loads.at(t, start.ravel(), direction, equations, marks)
             if settled(self._loads, change=_SETTLED, near=_NEAR) is not None:
@@ -224,7 +220,15 @@ class Equilibria:
                 self._ways = ways[-2:]
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
                 return self._loads.walking()
-        raise self._failure(number, f"no static equilibrium was found: {self._why_not()}")
+        why = self._failure(number, f"no static equilibrium was found: {self._why_not()}")
+        # Friction may leave bodies no place along the ideal motion: they walk there from one without any.
+        self._loads.at(t, ideal.ravel(), direction, equations, marks)
+        self._loads.restore(self._loads.kept(), NEVER_ENTERED)
+        if self._ways or self.MUST_REST or settled(self._loads, change=_SETTLED, near=_NEAR) is None:
+            raise why
+        self.counts[_GOES_ON] += not self._walks
+        self._ways, self._walks = [_ways(self._loads.state, ideal)], True
+        return self(number)
 
     def _in_the_middle(self, number: int) -> FloatArray:
         """Return the state of the ideal counterpart, freedoms where forces balance, shape (n_bodies, 13)."""
@@ -257,11 +261,12 @@ class Equilibria:
                 f"the surfaces of joint {joints[overlapping]} come closer than the contact law reaches; "
                 f"the load {TOO_CLOSE}{self._model.yielding(joints[overlapping])}"
             )
-        return "the search for it did not converge"
-
-    def _expected(self) -> list[FloatArray]:
-        """Return displacements that the equilibria before suggest, the best first, (n_bodies, 6) each."""
-        return [2.0 * last - before for before, last in pairwise(self._ways)] + self._ways[-1:]
+        left = np.linalg.solve(self._loads.root, applied(self._loads.motions, self._loads.residual()))
+        body = self._model.bodies[int(np.argmax(np.linalg.norm(left.reshape(-1, 6), axis=1)))]
+        return (
+            f"the search for it did not converge: loads on body {body} do not balance; less friction or more "
+            "clearance in its joints, more positions, or a dynamic run may help"
+        )
 
     def _displaced(self, ideal: FloatArray, ways: FloatArray) -> FloatArray:
         """Return the ideal state, displaced, shape (n_bodies, 13)."""
@@ -272,7 +277,7 @@ class Equilibria:
 
     def _walk(self, number: int, ideal: FloatArray, *, walks: bool) -> None:
         """Let friction follow the displacements since the last position, too, or the ideal motion alone."""
-        span = abs(float(np.diff(self._path.of_drives[number - 1 : number + 1]).sum()))
+        span = abs(float(np.diff(self._path.of_drives[max(number - 1, 0) :][:2]).sum()))
         if not (walks and self._ways and span > 0.0 and math.isfinite(self.slip)):
             self._loads.walk(None, 0.0)
             return

@@ -92,6 +92,11 @@ class System:
         solution.kinematics(self.parts, self.now, self.data.signals, self.t)
         solution.mark_angles(self.now.couplings)
 
+    def put(self, state: FloatArray) -> None:
+        """Put the bodies where a state has them."""
+        place(state, self.now.bodies)
+        self.refresh()
+
     def position(self) -> Position:
         """Return the positions of the bodies, with their whole turns, for :meth:`restore`."""
         return self.now.bodies.copy(), self.now.couplings.angle_mark.copy()
@@ -103,8 +108,7 @@ class System:
 
     def adopt(self, state: FloatArray) -> None:
         """Put the bodies where a state on the constraints has them, and count angles from there."""
-        place(state, self.now.bodies)
-        self.refresh()
+        self.put(state)
         solution.set_offsets(self.parts, self.now)
         self.refresh()
 
@@ -330,15 +334,13 @@ class System:
 
     def open_joint(self) -> ModelError:
         """Return the joint with the largest gap, with its gap and its bodies."""
-        worst, size = 0, -1.0
-        for k in range(len(self.model.joints)):
-            n_rows = self.parts.couplings[k].n_rows
-            gap = float(np.max(np.abs(self.now.couplings[k].residual[:n_rows]), initial=0.0))
-            if gap > size:
-                worst, size = k, gap
+        residuals, rows = self.now.couplings.residual, self.parts.couplings.n_rows
+        gaps = [np.max(np.abs(residuals[k, : rows[k]]), initial=0.0) for k in range(len(self.model.joints))]
+        size = float(max(gaps, default=-1.0))
         element = self._open_element(size)
         if element is not None:
             return element
+        worst = gaps.index(size)
         name = self.model.joints[worst]
         now = self.now.couplings[worst]
         way = float(dense.norm(now.pose.d[JOINTS[self.model.kind(name)].held]))

@@ -115,12 +115,10 @@ class JointLoads:
         """
         ask()
         self.state.reshape(-1, N_STATES)[:, VELOCITY:] = 0.0
-        place(self.state, self.real.now.bodies)
-        self.real.refresh()
+        self.real.put(self.state)
         self.close()
         collect(self.real.now.bodies, self.state)
-        place(self.state, self.ideal.now.bodies)
-        self.ideal.refresh()
+        self.ideal.put(self.state)
         self.begin_to_move()
         collect(self.ideal.now.bodies, self.state)
         g, self.root, lengths = self.ideal.scaled()
@@ -182,8 +180,7 @@ class JointLoads:
 
     def _small_step(self, k: int) -> FloatArray:
         """Return a step along one motion by which stiffness is tried."""
-        step = np.zeros(self.motions.shape[1])
-        step[k] = 1.0
+        step: FloatArray = np.eye(self.motions.shape[1])[k]
         far = self.turned(step) / _TRIED
         return step / max(far, self.change(step)[0] / _TRIED_GAP, _TINY)
 
@@ -269,10 +266,6 @@ class JointLoads:
         forces = np.array(self.memory.now.bodies.force[: self.n]).ravel()
         return forces + self._pushes("constraint", self.laws)
 
-    def _of_slip(self) -> FloatArray:
-        """Return the part of that force that slip decides."""
-        return self._pushes("wrench", self.by_slip)
-
     def _pushes(self, wrench: str, couplings: IntArray) -> FloatArray:
         """Return the wrench on the bodies from a wrench of some couplings, shape (6 n,)."""
         if couplings.size == 0:
@@ -285,9 +278,9 @@ class JointLoads:
         rest = self._evaluate(self.velocity)
         if self.slipping is self.velocity:
             return rest
-        rest -= self._of_slip()
+        rest -= self._pushes("wrench", self.by_slip)
         self._evaluate(self.slipping)
-        return np.asarray(rest + self._of_slip())
+        return np.asarray(rest + self._pushes("wrench", self.by_slip))
 
     def _slips(self) -> FloatArray:
         """Return the largest slip of each joint over the one at which its traction is developed."""
@@ -378,11 +371,9 @@ class JointLoads:
 
     def turned(self, step: FloatArray) -> float:
         """Return the length of a step (m,) along freedoms and of beams, turns [rad], ways over the size."""
-        if self.carried == 0 and not self.bends:
-            return 0.0
         first = 0 if self.bends else step.size - self.carried
         moved = applied(self.motions[:, first:], step[first:])
-        return float(np.max(np.abs(moved) / self.units))
+        return float(np.max(np.abs(moved) / self.units, initial=0.0))
 
     def move(self, step: FloatArray) -> None:
         """Displace the bodies by a step (m,)."""
@@ -405,10 +396,9 @@ class JointLoads:
 
     def lost(self) -> int | None:
         """Return the first joint whose pin has left its bore, or moves along it without end."""
-        return next((contact.coupling for contact in self.contacts if self._has_left(contact)), None)
-
-    def _has_left(self, contact: JointNodes) -> bool:
-        """Return whether the shaft of one joint has left its socket."""
-        gaps = contact.gaps(self._place(contact))
-        touches = bool(np.any(gaps < _TOUCHING * contact.roughness))
-        return not np.max(np.abs(gaps)) <= (_TILTED if touches else _LOST) * np.max(contact.drawn)
+        for contact in self.contacts:
+            gaps = contact.gaps(self._place(contact))
+            far = _TILTED if np.any(gaps < _TOUCHING * contact.roughness) else _LOST
+            if not np.max(np.abs(gaps)) <= far * np.max(contact.drawn):
+                return contact.coupling
+        return None

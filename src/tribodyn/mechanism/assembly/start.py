@@ -39,14 +39,16 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
 _MOST_LOOKS: Final = 20
 #: Looks after which the stiffness is found by looking: where a force vanishes, little else has any.
 _PLAIN_LOOKS: Final = 8
+#: Searches in a row without an end before freedoms take part and stiffness is looked for; half of the most.
+_PATIENT: Final = 3
 _MOST_STEPS: Final = 100
 _FEWER_STEPS: Final = 40  #: The same where friction may turn less sharply.
 _SETTLED: Final = 1.0e-3  #: Change of a gap, over the roughness, that counts as zero.
 _BALANCED: Final = 1.0e-6  #: Load over the largest one met on the way that counts as zero.
 _LEAST: Final = 1.0  #: Stiffness of springs where there is no contact yet [N/m].
 _FLOOR: Final = 1.0e-6  #: The same over the largest stiffness.
-#: The same where beams stretch, once a search has not ended: they are that much softer in bending.
-_FLOOR_OF_BEAMS: Final = 1.0e-10
+#: The same once a search has not ended: beams are that much softer in bending, joints than press fits.
+_LOW_FLOOR: Final = 1.0e-10
 _STIFFER: Final = 4.0
 _SOFTER: Final = 3.0  #: Factors by which springs change.
 _BACK: Final = 0.5  #: Share of the load along a step that may have turned against it.
@@ -64,24 +66,25 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     A change of gaps below ``change`` over the roughness counts as zero; after one below ``near``, which grows
     from look to look, the possible motions are not looked for again.
     """
-    soft, quiet, floor = 0.0, False, _FLOOR
+    soft, quiet, floor, unended = 0.0, False, _FLOOR, 0
     for look in range(_MOST_LOOKS):
-        if near and look >= _PLAIN_LOOKS:
+        if near and (look >= _PLAIN_LOOKS or unended >= _PATIENT):
             loads.survey()
         else:
             loads.look()
         if quiet and loads.unbalance() <= _BALANCED:
             return loads.state
         steps, moved, soft = _eased(loads, soft, floor, change) if loads.motions.size else (0, 0.0, soft)
-        if math.isinf(moved) and loads.bends:
-            floor = _FLOOR_OF_BEAMS
-        if loads.waits:
+        unended = unended + 1 if math.isinf(moved) else 0
+        if unended and (near or loads.bends):
+            floor = _LOW_FLOOR
+        if loads.waits and unended in (0, _PATIENT):
             loads.waits = False
             continue
         if steps == 0 or (near and moved < _SAME and look == 0 and not loads.carried):
             return loads.state if loads.overlapping() is None else None
         quiet = moved < near and loads.overlapping() is None
-        if loads.lost() is not None:
+        if loads.lost() is not None or (near and unended > 2 * _PATIENT):
             return None
         # Where a force passes through zero its shaft lies anywhere, and no look is the last.
         near *= _NEARER
