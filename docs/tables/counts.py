@@ -78,6 +78,10 @@ def change(percent: float) -> str:
     return f"{float(f'{percent:.2g}'):+g} %"
 
 
+#: How a run ends that is stopped before its first position.
+STOPPED: Final = "refused: stopped before anything was computed; nothing was saved"
+
+
 def statics(found: Found) -> Lines:
     """Give how static analyses of random machines ended, and how far they are from dynamic runs."""
     measured = found["static_machines"]
@@ -89,9 +93,9 @@ def statics(found: Found) -> Lines:
     for title, name in (
         ("complete static analysis", "complete"),
         ("refused: a freedom that nothing holds", "along a freedom that no joint, drive or spring holds"),
-        ("refused: overloaded for the contact law", "come closer than the contact law reaches"),
         ("refused: a shaft outside its bore", "out of its bore"),
         ("stopped by the benchmark after 2 s of processor time", "interrupted"),
+        ("stopped before the first position", STOPPED),
     ):
         yield row(title, str(ended.get(name, 0)))
     yield row("compared with a dynamic run", str(measured["compared"]))
