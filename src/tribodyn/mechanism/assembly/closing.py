@@ -340,7 +340,7 @@ class System:
         element = self._open_element(size)
         if element is not None:
             return element
-        worst = gaps.index(size)
+        worst = int(np.argmax(gaps))
         name = self.model.joints[worst]
         now = self.now.couplings[worst]
         way = float(dense.norm(now.pose.d[JOINTS[self.model.kind(name)].held]))
@@ -362,7 +362,7 @@ class System:
         gaps = np.where(
             self.parts.couplings.n_rows[first:] > 0, abs(self.now.couplings.residual[first:, 0]), 0.0
         )
-        if np.max(gaps, initial=0.0) <= least:
+        if not np.max(gaps, initial=0.0) > least:
             return None
         element = self.model.element_of(first + int(np.argmax(gaps)))
         text = (

@@ -180,7 +180,8 @@ class JointLoads:
 
     def _small_step(self, k: int) -> FloatArray:
         """Return a step along one motion by which stiffness is tried."""
-        step: FloatArray = np.eye(self.motions.shape[1])[k]
+        step = np.zeros(self.motions.shape[1])
+        step[k] = 1.0
         far = self.turned(step) / _TRIED
         return step / max(far, self.change(step)[0] / _TRIED_GAP, _TINY)
 

@@ -277,3 +277,9 @@ def test_no_body_of_a_chain_of_like_bodies_is_light() -> None:
     force = td.simulate(chain)["reaction_force"].isel(time=0).to_numpy()
     # Each pin bears the weight of what hangs from it.
     np.testing.assert_allclose(np.abs(force[:, 0]), 0.981 * np.arange(50, 0, -1), rtol=1e-9)
+
+
+def test_a_search_that_ends_in_no_number_names_a_joint_too():
+    system = System(slider_crank())
+    system.now.couplings.residual[:] = np.nan
+    assert "joint" in str(system.open_joint())
