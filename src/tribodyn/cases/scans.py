@@ -95,6 +95,8 @@ def with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> di
     """
     read = dict(entries)
     for table in tables_of_surfaces(keys):
+        if not any(f"{table}{path}" in read for path in (COMBINED, *EACH, *_OPTION_PATHS)):
+            continue
         own = {path.removeprefix(table): entry for path, entry in read.items() if path.startswith(table)}
         there = {path.removeprefix(table): key for path, key in keys.items() if path.startswith(table)}
         try:

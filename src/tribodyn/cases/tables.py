@@ -5,7 +5,7 @@ Such a field is declared with :func:`tribodyn.cases.fields.tables`. Its keys are
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
 from itertools import groupby
@@ -204,13 +204,12 @@ def _before_name(path: str) -> str | None:
     return before if name else None
 
 
-def _paths(values: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
-    """Yield the dotted paths of all values."""
+def _paths(values: Mapping[str, Any], prefix: str = "") -> list[str]:
+    """Return the dotted paths of all values."""
+    found: list[str] = []
     for name, value in values.items():
-        if isinstance(value, dict):
-            yield from _paths(value, f"{prefix}{name}.")
-        else:
-            yield prefix + name
+        found += _paths(value, f"{prefix}{name}.") if isinstance(value, dict) else [prefix + name]
+    return found
 
 
 def is_empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:

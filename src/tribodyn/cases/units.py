@@ -178,6 +178,12 @@ def from_si(value: float, unit: str) -> str:
     ``value``: finite SI value. ``unit``: preferred unit. It is used when some number of at most 17 digits in
     it reads back exactly, otherwise the value stands in SI units.
     """
+    return _written(value, unit, math.copysign(1.0, value))
+
+
+# Of zeros with either sign one would stand for both.
+@lru_cache(_KEPT, typed=True)
+def _written(value: float, unit: str, _sign: float) -> str:
     scale = _scale(unit)
     in_unit = _ARITHMETIC.divide(Decimal(value) - scale.zero, scale.factor)
     for digits in range(1, 18):

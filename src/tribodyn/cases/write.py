@@ -40,10 +40,10 @@ def to_toml(
         table: [
             line
             for key in inside
-            for line in _lines(_in_force(case, key, idle), key, linked.get(key.path), own, origins, comments)
+            for line in _lines(_in_force(group, key, idle), key, linked.get(key.path), own, origins, comments)
         ]
         for table, inside in groupby(keys_in(case).values(), key=lambda key: key.table)
-        if _is_there(case, table)
+        if (group := value_at(case, table) if table else case) is not None
     }
     for table, inside in (tables if comments else _shortened(tables)).items():
         if not inside and _is_always_there(case, table):
@@ -87,10 +87,6 @@ def _quoted(table: str) -> str:
     return ".".join(f'"{name}"' if {"[", ":"} & {*name} else name for name in table.split("."))
 
 
-def _is_there(case: BaseModel, table: str) -> bool:
-    return not table or value_at(case, table) is not None
-
-
 def _is_always_there(case: BaseModel, table: str) -> bool:
     """Whether a table need not be written where it holds no key: the case has it all the same."""
     known = type(case).model_fields.get(table)
@@ -104,8 +100,8 @@ def _head(kind: str) -> Iterator[str]:
     yield ""
 
 
-def _in_force(case: BaseModel, key: Key, idle: Collection[str]) -> Any:
-    return None if key.path in idle else value_at(case, key.path)
+def _in_force(group: BaseModel, key: Key, idle: Collection[str]) -> Any:
+    return None if key.path in idle else value_at(group, key.name)
 
 
 def _lines(

@@ -19,6 +19,7 @@ import numpy as np
 from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
 from tribodyn.cases.case import with_entries
+from tribodyn.core.environment import one_thread
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.mechanisms.catalogue import load_case
 from tribodyn.mechanisms.output_keys import Instant
@@ -143,10 +144,11 @@ def builds(
     labels = [f"{label} [{ERROR_UNITS[runs.unit].shown}]" for label in NUMBERS.values()]
     means, of_build = Means(workers=workers, keep_results=False), runs.of_build
     errors = runs.alone(means, watcher)
-    population, random = Copies(runs.laws, runs.inputs, errors), np.random.default_rng([seed, 1])
-    drawn = draw(population, of_build, draws, random)
-    part = max(draws // _REPLICATES, 1)
-    again = [draw(population.again(random), of_build, part, random) for _ in range(_REPLICATES)]
+    random, part = np.random.default_rng([seed, 1]), max(draws // _REPLICATES, 1)
+    with one_thread():
+        population = Copies(runs.laws, runs.inputs, errors)
+        drawn = draw(population, of_build, draws, random)
+        again = [draw(population.again(random), of_build, part, random) for _ in range(_REPLICATES)]
     together = runs.together(means, watcher)
     same = numbers_of_builds(errors[: coupled * of_build].reshape(coupled, of_build, INSTANTS))
     numbers = tuple(
@@ -163,9 +165,13 @@ def builds(
 
 def numbers_of_builds(errors: FloatArray) -> FloatArray:
     """Return the numbers of builds from errors of their copies, (n, n_copies, n_instants) to (n, 3)."""
-    spread = np.max(errors.max(axis=1) - errors.min(axis=1), axis=1, initial=0.0)
-    sigma = np.sqrt(np.mean(np.var(errors, axis=1), axis=1)) if errors.size else spread
-    return np.column_stack([spread, sigma, np.abs(errors).max(axis=(1, 2), initial=0.0)])
+    if not errors.size:
+        return np.zeros((0, len(NUMBERS)))
+    high, low = errors.max(axis=1), errors.min(axis=1)
+    sigma = np.sqrt(np.mean(np.var(errors, axis=1), axis=1))
+    return np.column_stack(
+        [np.max(high - low, axis=1), sigma, np.maximum(high.max(axis=1), -low.min(axis=1))]
+    )
 
 
 class Copies:
@@ -183,10 +189,16 @@ class Copies:
         self._factors = factors.astype(np.float32)
         self._rest = ((errors - terms @ factors) * np.sqrt(len(terms) / spare)).astype(np.float32)
 
-    def drawn(self, random: np.random.Generator, size: int) -> FloatArray:
-        """Return the errors of other copies, shape (size, n_instants)."""
+    def drawn(self, random: np.random.Generator, builds: int, of_build: int) -> FloatArray:
+        """Return the errors of builds of other copies, shape (builds, of_build, n_instants)."""
+        size = builds * of_build
         terms = _terms(np.column_stack([law(random, size) for law in self._laws])).astype(np.float32)
-        return np.asarray(terms @ self._factors + self._rest[random.integers(len(self._rest), size=size)])
+        rest = random.integers(len(self._rest), size=size)
+        # The first copies of all builds, then the second: so are numbers of builds found fastest.
+        order = np.arange(size).reshape(builds, of_build).T.ravel()
+        errors = self._rest[rest[order]]
+        errors += terms[order] @ self._factors
+        return errors.reshape(of_build, builds, -1).swapaxes(0, 1)
 
     def again(self, random: np.random.Generator) -> Self:
         """Return copies as many as these, drawn from them with replacement."""
@@ -196,7 +208,7 @@ class Copies:
 
 def _terms(inputs: FloatArray) -> FloatArray:
     """Return the terms of the polynomial: all of second order, and cubes."""
-    return np.hstack([quadratic(inputs), inputs**3])
+    return np.hstack([quadratic(inputs), inputs * inputs * inputs])
 
 
 def _one_of(values: FloatArray, random: np.random.Generator, size: int) -> FloatArray:
@@ -207,8 +219,7 @@ def draw(copies: Copies, of_build: int, draws: int, random: np.random.Generator)
     """Return the numbers of builds, shape (draws, 3), each of so many copies drawn."""
     parts = []
     for begin in range(0, draws, _BLOCK):
-        n = min(_BLOCK, draws - begin)
-        parts.append(numbers_of_builds(copies.drawn(random, n * of_build).reshape(n, of_build, -1)))
+        parts.append(numbers_of_builds(copies.drawn(random, min(_BLOCK, draws - begin), of_build)))
     return np.concatenate(parts).astype(np.float64)
 
 

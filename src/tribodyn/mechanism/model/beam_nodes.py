@@ -10,6 +10,7 @@ point of the body has a node there, anything else is at the node in the middle.
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -40,7 +41,9 @@ class Node:
     inertia: FloatArray
 
 
-def _divided(keys: BeamBodyKeys, cuts: Sequence[float]) -> tuple[list[Node], list[FloatArray]]:
+# Cases of a sweep have the same beams.
+@lru_cache(maxsize=128)
+def _divided(keys: BeamBodyKeys, cuts: tuple[float, ...]) -> tuple[list[Node], list[FloatArray]]:
     """Return nodes from end to end, and axes of the pieces between them as columns, the last along."""
     line, (area, moments, *_) = keys.line, keys.properties
     steps = np.diff(line, axis=0)
@@ -131,7 +134,7 @@ def _with_nodes_of(values: Mapping[str, Value], name: str) -> dict[str, Value]:
         for (path, _), (path, point) in acting.items()
         if point is not None
     ]
-    nodes, axes = _divided(keys, cuts)
+    nodes, axes = _divided(keys, tuple(cuts))
     places, middle = np.array([node.place for node in nodes]), _middle(nodes)[1]
     at = {
         key: f"{name}:{np.argmin(np.linalg.norm(places - (middle if point is None else point), axis=1))}"
