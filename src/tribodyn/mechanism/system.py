@@ -233,9 +233,9 @@ class MechanismSystem:
         return frame_times(duration, self.period, np.empty(0), 0.0, frames(self.case))
 
     def sliding_load(self, problem: Problem) -> FloatArray:
-        """Return ∫P_c |s| dt at the nodes over the run [N/m], shape (n_nodes,)."""
+        """Return ∫P_c |s| dt at the nodes over the run [N/m], shape (n_nodes,); of bodies at rest (0,)."""
         load: FloatArray = problem.memory.contact.sliding_load
-        return load
+        return load[:0] if self._rests or self._analysis == "vibrations" else load
 
     def part_of(self, node: int) -> str:
         """Return the joint that a node belongs to, in words."""

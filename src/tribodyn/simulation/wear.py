@@ -27,7 +27,8 @@ def simulate_plain(session: Session) -> "xr.Dataset":
     """Run a case of a system that wears once; its wear is what one run makes, without feedback."""
     system, wear = cast(WearingSystem, session.system), cast(WearingCase, session.case).wear
     run = session.integrated(session.case.duration)
-    depth = _archard(system, wear).depth(system.sliding_load(run.problem))
+    load = system.sliding_load(run.problem)
+    depth = _archard(system, wear).depth(load) if load.size else load
     cycles = run.solution.t_end / system.period
     of_outputs, notes = _by_error(system, run, cycles, depth)
     life = _linear_life(wear, cycles, depth, of_outputs)

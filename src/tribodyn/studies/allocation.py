@@ -19,7 +19,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
 from tribodyn.cases.units import from_si
 from tribodyn.core.errors import InputError
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.results.store import write_text
 from tribodyn.studies.differences import DIGITS, numbers_of
 from tribodyn.studies.plan import Axis, plan_of
@@ -56,7 +56,7 @@ class Allocation:
 
 
 def allocate(
-    case: Case | str | Path,
+    case: AnyCase,
     limits: Sequence[str],
     probability: float,
     cost: str | Path,
@@ -71,7 +71,7 @@ def allocate(
     Parameters
     ----------
     case
-        A case, the name of a built-in one, or a file.
+        A case, a :class:`tribodyn.Mechanism`, the name of a built-in case, or a file.
     limits
         ``"NAME=MOST"`` and ``"NAME>=LEAST"``, in the unit of the number; all must be kept together.
     probability
@@ -100,7 +100,7 @@ def allocate(
     >>> from tribodyn.studies import allocate
     >>> allocate("slider-crank", ["error_rms_um_slider=40"], 0.99, "costs.toml")  # doctest: +SKIP
     """
-    chosen = case if isinstance(case, Case) else load_case(case)
+    chosen = case_of(case)
     if not 0.0 < probability < 1.0:
         raise InputError(f"given {probability:g}; allowed: above 0 and below 1", key="--probability")
     asked = tuple(limit(text, chosen, "--limit") for text in limits)

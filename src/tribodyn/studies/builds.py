@@ -21,7 +21,7 @@ from tribodyn.cases import Case, Key
 from tribodyn.cases.case import with_entries
 from tribodyn.core.environment import one_thread
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.mechanisms.output_keys import Instant
 from tribodyn.results.summary import Summary
 from tribodyn.results.variables import ERROR_UNITS
@@ -88,7 +88,7 @@ class Builds:
 
 
 def builds(
-    case: Case | str | Path,
+    case: AnyCase,
     *,
     copies: int = 4000,
     draws: int = 1_000_000,
@@ -135,7 +135,7 @@ def builds(
     >>> from tribodyn.studies import builds
     >>> found = builds("ring.toml", copies=200, draws=10_000)  # doctest: +SKIP
     """
-    chosen = case if isinstance(case, Case) else load_case(case)
+    chosen = case_of(case)
     runs = BuildRuns(chosen, copies, coupled, seed, None if directory is None else Path(directory))
     names = [f"copies_{part}_{ERROR_UNITS[runs.unit].spelled}" for part in NUMBERS]
     wrong = next((name for name in limits or {} if name not in names), None)

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, keys_in
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.mechanisms.results import read
 from tribodyn.results.reading import column, settled
 from tribodyn.results.store import POINTS
@@ -66,7 +66,7 @@ class OutputShares:
 
 
 def contributions(
-    case: Case | str | Path, *, directory: str | Path, workers: int | None = None, watcher: Watcher = SILENT
+    case: AnyCase, *, directory: str | Path, workers: int | None = None, watcher: Watcher = SILENT
 ) -> tuple[OutputShares, ...]:
     """Return the parts of the error of each output of a case by its joints.
 
@@ -97,7 +97,7 @@ def contributions(
     >>> shares.shares  # doctest: +SKIP
     array([1.])
     """
-    chosen = case if isinstance(case, Case) else load_case(case)
+    chosen = case_of(case)
     switches = real_joints(chosen)
     means = Means(workers=workers, keep_results=True)
 

@@ -17,7 +17,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.cases import Case, Key
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of, varied_key
 from tribodyn.studies.search import matching, no_run_has, read_number, readable
@@ -47,7 +47,7 @@ class Slope:
 
 
 def slopes(
-    case: Case | str | Path,
+    case: AnyCase,
     keys: Sequence[str] | Mapping[str, str | None],
     of: Sequence[str],
     *,
@@ -60,7 +60,7 @@ def slopes(
     Parameters
     ----------
     case
-        A case, the name of a built-in one, or a file.
+        A case, a :class:`tribodyn.Mechanism`, the name of a built-in case, or a file.
     keys
         Dotted paths; with a path, the longest step may be given as text with its unit, else it is 5 % of
         the value.
@@ -87,7 +87,7 @@ def slopes(
     >>> key = "joints.wrist.clearance.radial"
     >>> [slope] = slopes("slider-crank", [key], ["error_rms_um_slider"])  # doctest: +SKIP
     """
-    chosen = case if isinstance(case, Case) else load_case(case)
+    chosen = case_of(case)
     asked = keys if isinstance(keys, Mapping) else dict.fromkeys(keys)
     names = [matching(name, chosen, "--of")[0] for name in of]
     ladders = [_ladder(chosen, path, longest) for path, longest in asked.items()]

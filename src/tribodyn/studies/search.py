@@ -16,7 +16,7 @@ from tribodyn.cases.keys import Value
 from tribodyn.cases.units import with_shared_unit
 from tribodyn.core.errors import InputError, TribodynError
 from tribodyn.core.quoting import as_given, meant, nearest
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.results.summary import KeyResult, name_today
 from tribodyn.studies.archive import refuse_failures
@@ -181,7 +181,7 @@ class Search:
 
 
 def find(
-    case: Case | str | Path,
+    case: AnyCase,
     vary: str,
     between: str,
     until: str,
@@ -195,7 +195,7 @@ def find(
     Parameters
     ----------
     case
-        A case, the name of a built-in one, or a file.
+        A case, a :class:`tribodyn.Mechanism`, the name of a built-in case, or a file.
     vary
         Dotted path of the parameter.
     between
@@ -223,7 +223,7 @@ def find(
     TribodynError
         The number does not pass the limit, or a run failed.
     """
-    chosen = case if isinstance(case, Case) else load_case(case)
+    chosen = case_of(case)
     asked = question(chosen, vary, between, limit(until, chosen, "until"))
     with TemporaryDirectory() as place:
         means = Means(workers=workers, keep_results=False)

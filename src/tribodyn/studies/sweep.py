@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,11 +11,11 @@ from typing import Any, Final
 
 import xarray as xr
 
-from tribodyn.cases import Case, keys_in
+from tribodyn.cases import keys_in
 from tribodyn.cases.tables import with_components
 from tribodyn.core.errors import InputError, TribodynError
-from tribodyn.core.platforms import processors, version
-from tribodyn.mechanisms.catalogue import load_case
+from tribodyn.core.platforms import memory, processors, version
+from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.results import netcdf_content
 from tribodyn.results.store import FEW_POINTS, prepare_directory, write_bytes, write_text
 from tribodyn.results.summary import Summary
@@ -36,24 +36,25 @@ def warnings_of(plan: SweepPlan, to_do: int, workers: int | None) -> list[str]:
     """Return warnings that the points of a sweep take long, or together much memory.
 
     ``to_do``: how many of its points are to be computed; ``workers``: processes of this machine, as
-    :class:`~tribodyn.studies.sweep.Means` has them.
+    :class:`~tribodyn.studies.sweep.Means` has them. Points are refused that no machine of this size holds.
     """
-    n_workers = min(max(processors() if workers is None else workers, 1), max(to_do, 1))
+    n_workers = min(max(processors() if workers is None else workers, 1), to_do)
     places = {round(k * (len(plan.points) - 1) / (_LOOKED_AT - 1)) for k in range(_LOOKED_AT)}
     looked_at = [estimate(plan.case.replace(plan.points[i].changes, source=SOURCE)) for i in sorted(places)]
     seconds = to_do * fmean(one.seconds for one in looked_at) / n_workers
     largest = max(looked_at, key=lambda one: one.memory)
+    largest.require_memory(memory())
     found = []
-    if to_do and seconds > MOST_TIME:
+    if seconds > MOST_TIME:
         found.append(
             f"{to_do} points in {n_workers} processes are estimated to take {in_time(seconds)}, more than "
             f"{in_time(MOST_TIME)}: give fewer values, or change {looked_at[-1].time_key}"
         )
     # Workers share the program.
-    memory = PROGRAM + n_workers * (largest.memory - PROGRAM)
-    if to_do and memory > MOST_MEMORY:
+    together = PROGRAM + n_workers * (largest.memory - PROGRAM)
+    if together > MOST_MEMORY:
         found.append(
-            f"{n_workers} points at once are estimated to take {in_bytes(memory)} of memory, more than "
+            f"{n_workers} points at once are estimated to take {in_bytes(together)} of memory, more than "
             f"{in_bytes(MOST_MEMORY)}: give fewer --workers, or change {largest.memory_key}"
         )
     return found
@@ -72,6 +73,7 @@ class Arrival:
     to_do: int
     point: Point | None = None  #: The one that has just arrived; None at the beginning.
     failure: str = ""  #: Why it gave no result, empty where it did.
+    warnings: Sequence[str] = ()  #: At the beginning: that points take long, or together much memory.
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,7 @@ SILENT: Final = Watcher()  #: A listener that hears nothing and ends nothing.
 
 
 def sweep(
-    case: Case | str | Path,
+    case: AnyCase,
     vary: Mapping[str, Asked],
     *,
     samples: int | None = None,
@@ -126,7 +128,7 @@ def sweep(
     Parameters
     ----------
     case
-        A case, the name of a built-in one, or a file.
+        A case, a :class:`tribodyn.Mechanism`, the name of a built-in case, or a file.
     vary
         By dotted path, what each parameter is to be: values (``["20 um", "30 um"]``), or text as on the
         command line: ``"20, 30, 40 um"``, ``"10 um:50 um:10 um"``, ``"normal(20 um, 2 um)"``. Lists and
@@ -161,8 +163,7 @@ def sweep(
     InputError
         Something asked for cannot be; nothing has been computed.
     """
-    chosen = case if isinstance(case, Case) else load_case(case)
-    plan = make_plan(chosen, vary, Sampling(samples, method, seed))
+    plan = make_plan(case_of(case), vary, Sampling(samples, method, seed))
     means = Means(workers, scheduler, tls, retry)
     watcher = Watcher(progress or _nothing, stop or Watcher.stop)
     return run(plan, None if directory is None else Path(directory), means, watcher)
@@ -237,7 +238,9 @@ def compute_missing(
     summaries |= _kept(plan, archive, means)
     # By name: samples may coincide.
     missing = list({point.name: point for point in plan.points if point.name not in summaries}.values())
-    watcher.arrived(Arrival(0, len(missing)))
+    here = missing and means.scheduler is None
+    warnings = warnings_of(plan, len(missing), means.workers) if here else ()
+    watcher.arrived(Arrival(0, len(missing), warnings=warnings))
     if not missing:
         return
     staging = "" if archive is None else str(archive.staging)

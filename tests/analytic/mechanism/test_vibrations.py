@@ -275,3 +275,19 @@ def test_only_the_lowest_modes_are_kept() -> None:
     assert found.shape == (3, 3)
     assert np.all(np.diff(found, axis=1) >= 0.0)
     assert column(result, "mode_share").sum(axis=2) == pytest.approx(np.ones((3, 3)))
+
+
+def test_bodies_at_rest_have_no_heat_of_friction_and_no_wear() -> None:
+    case = td.load_case("vsv-free", {"run.positions": "2"})
+    at_rest, led = (
+        summarise(td.simulate(case.replace({"run.analysis": one}))) for one in ("vibrations", "static")
+    )
+    missing = ("friction_heat_J", "wear_depth_max_nm", "worn_volume_mm3", "load_power_mean_W")
+    for name in (
+        *missing,
+        "wear_depth_nm_trunnion",
+        "friction_heat_J_trunnion",
+        "drive_speed_at_peak_rad_per_s",
+    ):
+        assert name in led
+        assert name not in at_rest

@@ -1,4 +1,5 @@
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -6,6 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import tribodyn as td
 from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.mechanisms.results import read
@@ -156,3 +158,22 @@ def test_bad_means_are_refused(simulated: list[Any], tmp_path: Path) -> None:
     with pytest.raises(InputError, match="is a file"):
         sweep("vsv", GRID, workers=0, directory=tmp_path)
     assert simulated == []
+
+
+def test_points_that_no_memory_holds_are_refused_before_any_is_computed(monkeypatch, tmp_path):
+    monkeypatch.setattr(sys.modules["tribodyn.studies.sweep"], "memory", lambda: 1e8)
+    with pytest.raises(InputError, match=r"estimated to take .* of memory, more than the .* of this machine"):
+        sweep("vsv", {"joint.clearance": "20, 30 um"}, workers=0, directory=tmp_path)
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+
+
+def test_a_mechanism_of_python_is_swept_as_its_case_is() -> None:
+    drawn = td.Mechanism(
+        "Arm", gravity="0, -9.81, 0 m/s^2", run={"duration": "10 ms", "analysis": "kinematic"}
+    )
+    drawn.body("arm", mass="1 kg", centre="100, 0, 0 mm", inertia="1e-3, 1e-2, 1e-2 kg m^2")
+    drawn.revolute("pivot", "ground", "arm", point="0, 0, 0 mm", axis=[0, 0, 1]).drive(
+        "motor", "pivot", speed="1 rpm"
+    )
+    found, same = (sweep(one, {"bodies.arm.mass": "1, 2 kg"}, workers=0) for one in (drawn, drawn.case()))
+    assert found["drive_moment_max_Nm"].values == pytest.approx(same["drive_moment_max_Nm"].values)

@@ -218,15 +218,14 @@ def _computed(plan: SweepPlan, path: Path, means: Means, console: Console, stop:
     from tribodyn.studies import Watcher, run
 
     with ExitStack() as stack:
-        shown = _Shown(plan, console, stack, means)
+        shown = _Shown(plan, console, stack)
         return run(plan, path, means, Watcher(shown, stop, shown.note))
 
 
 class _Shown:
     """Shows the arrival of points; the bar opens when it is known how many there are to compute."""
 
-    def __init__(self, plan: SweepPlan, console: Console, stack: ExitStack, means: Means) -> None:
-        self._plan, self._means = plan, means
+    def __init__(self, plan: SweepPlan, console: Console, stack: ExitStack) -> None:
         self._n_points = len(plan.points)
         self._console = console
         self._stack = stack
@@ -239,21 +238,16 @@ class _Shown:
     def __call__(self, arrival: Arrival) -> None:
         """Show one arrival."""
         if arrival.point is None:
-            self._begin(arrival.to_do)
+            there = self._n_points - arrival.to_do
+            here = f", {there} are there already" if there else ""
+            self._console.note(f"computing {arrival.to_do} of {self._n_points} points{here}")
+            for warning in arrival.warnings:
+                complain(f"warning: {warning}")
+            self._bar = self._stack.enter_context(progress(max(arrival.to_do, 1), self._console, POINTS))
             return
         if arrival.failure:
             self._bar.note(f"no result at {arrival.point.label}: {arrival.failure}")
         self._bar(arrival.done)
-
-    def _begin(self, to_do: int) -> None:
-        here = f", {self._n_points - to_do} are there already" if to_do < self._n_points else ""
-        self._console.note(f"computing {to_do} of {self._n_points} points{here}")
-        if self._means.scheduler is None:
-            from tribodyn.studies.sweep import warnings_of
-
-            for warning in warnings_of(self._plan, to_do, self._means.workers):
-                complain(f"warning: {warning}")
-        self._bar = self._stack.enter_context(progress(max(to_do, 1), self._console, POINTS))
 
 
 def _draw(dataset: xr.Dataset, path: Path, console: Console, args: Namespace, *, points: bool) -> bool:

@@ -81,7 +81,7 @@ def _rate_at_peak(effort: str, other: str, dataset: "xr.Dataset", joints: slice)
     where = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     power = settled(dataset, column(dataset, "drive_power")[:, joints])[where]
     both = settled(dataset, column(dataset, other)[:, joints])[where]
-    nothing = both or abs(values[where]) < readings.NOTHING
+    nothing = both or abs(values[where]) < readings.NOTHING or "mode" in dataset.dims
     return math.nan if nothing else round(float(abs(power / values[where])), 20)
 
 
@@ -242,7 +242,9 @@ BY_JOINT: Final[dict[str, ByPart]] = {
         "Joints",
         "Heat of dry friction in this joint since the start of the run; its oil film is not counted.",
         lambda d, j: (
-            float(column(d, "joint_friction")[-1, j]) if readings.of_surfaces(d, j).size else math.nan
+            float(column(d, "joint_friction")[-1, j])
+            if readings.of_surfaces(d, j).size and "wear_depth" in d
+            else math.nan
         ),
     ),
     "flash_temperature_K": _named(

@@ -38,9 +38,10 @@ def _scatter(dataset: "xr.Dataset") -> float:
 
 
 def _mean_rate(dataset: "xr.Dataset", energy: FloatArray) -> float:
-    """Return the mean power [W] over the run from an energy since its start."""
+    """Return the mean power [W] over the run from an energy since its start; NaN where nothing moves."""
     time = reading.column(dataset, "time")
-    return float((energy[-1] - energy[0]) / (time[-1] - time[0])) if time[-1] > time[0] else math.nan
+    moves = time[-1] > time[0] and "mode" not in dataset.dims
+    return float((energy[-1] - energy[0]) / (time[-1] - time[0])) if moves else math.nan
 
 
 def _of_limits(dataset: "xr.Dataset") -> FloatArray:
@@ -180,7 +181,7 @@ KEY_RESULTS: Final[dict[str, KeyResult]] = {
         "J",
         "Loss",
         "Heat of dry friction in all joints since the start of the run; oil films are not counted.",
-        lambda d: float(reading.column(d, "energy_friction")[-1]) if "surface" in d.dims else math.nan,
+        lambda d: float(reading.column(d, "energy_friction")[-1]) if "wear_depth" in d else math.nan,
     ),
     "film_pressure_max_MPa": KeyResult(
         "Film pressure, peak",
