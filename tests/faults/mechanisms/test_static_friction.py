@@ -123,9 +123,14 @@ def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest
         assert np.mean(differences) < SAME, seed
 
 
-@pytest.mark.parametrize("seed", [13, 75, 10, pytest.param(0, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "seed", [13, 75, 10, 26, 57, *(pytest.param(seed, marks=pytest.mark.long) for seed in (0, 17, 79))]
+)
 def test_first_positions_are_found_with_all_pins_in_their_bores(seed: int) -> None:
-    """A turn about two balls carried pins out by its square; what slides freely went metres; press fits."""
+    """Freedoms turn with the bodies: of press fits, a ten-thousandth of a turn aside is thousands of loads.
+
+    What slides freely went metres; shafts that walk from a place without friction begin to slip nowhere.
+    """
     result = td.simulate(swinging(seed).replace({**STATIC, **FIRST}))
     assert result.attrs["failure"] == ""
     assert result.sizes["time"] == 3
@@ -133,7 +138,12 @@ def test_first_positions_are_found_with_all_pins_in_their_bores(seed: int) -> No
     assert unbalance <= 1e-6
     for name, joint in swinging(seed).joints.items():
         if joint.clearance is not None:
-            off = np.hypot(*column(result, "displacement")[:, list(result.joint.values).index(name), :2].T)
+            at = list(result.joint.values).index(name)
+            x, y, z = column(result, "displacement")[:, at].T
+            if joint.type == "cylindrical":  # in the middle of the bore
+                x = x - z * column(result, "tilt_y")[:, at]
+                y = y + z * column(result, "tilt_x")[:, at]
+            off = np.hypot(x, y)
             assert np.max(off) < 2.0 * joint.clearance.radial, name
 
 

@@ -17,6 +17,7 @@ from tribodyn.kernels.mechanism.data import N_STATES, VELOCITY, MechanismData
 from tribodyn.mechanism.analyses.linearised import NEVER_ENTERED, LinearEquations
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
+from tribodyn.mechanism.assembly.decompositions import row_space
 from tribodyn.mechanism.assembly.equilibrium import JointLoads
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.assembly.passage import closes, placed
@@ -110,9 +111,10 @@ class LedLoads(JointLoads):
         self._walked, self.pace, self._led = walked, 0.0 if walked is None else pace, led
         self.blurs = () if walked is None else _BLURS
 
-    def restore(self, kept: tuple[FloatArray, FloatArray, FloatArray], factor: float) -> None:
+    def restore(self, kept: tuple[FloatArray, FloatArray], factor: float) -> None:
         """Put the bodies back, and develop friction at a multiple of its slip velocities."""
         super().restore(kept, factor)
+        self._follow()
         self.data.contact.surfaces["slip_velocity"] = factor * self._slips_given
 
     @property
@@ -165,12 +167,24 @@ class LedLoads(JointLoads):
             missed = (meant - self.ideal.entries("residual")) / lengths
             self.ideal.step(dense.product(root, self.ideal.solve(g, missed)))
             collect(self.ideal.now.bodies, self.state)
+        self._follow()
+
+    def _follow(self) -> None:
+        """Turn the freedoms with the bodies: aside from them contact is stiffer by many orders."""
+        if self.carried and not self.surveyed:
+            self.ideal.put(self.state)
+            g, root, _ = self.ideal.scaled()
+            held = row_space(g, self.ideal.rank())
+            for column in self.motions.T[-self.carried :]:
+                way = np.linalg.solve(root, column)
+                column[:] = dense.product(root, way - held.part_of(way))
+            self.moving = ShaftMotions(self.motions, self.ends[:, self.acting])
 
     def undo(self, step: FloatArray) -> None:
         """Take back the last step (m,)."""
         self.way -= step
-        self.travelled -= step[step.size - self.carried :]
         self.state[:] = self._before
+        self._follow()
 
     def begin_to_move(self) -> None:
         """Fill the velocities of the ideal counterpart."""

@@ -227,6 +227,7 @@ class Equilibria:
         if self._ways or self.MUST_REST or settled(self._loads, change=_SETTLED, near=_NEAR) is None:
             raise why
         self.counts[_GOES_ON] += not self._walks
+        self._loads.ahead = self._loads.velocity  # the motion that loads begin without friction is over
         self._ways, self._walks = [_ways(self._loads.state, ideal)], True
         return self(number)
 

@@ -129,7 +129,7 @@ class JointLoads:
         self.wanted = self.held.solve(self.ideal.entries("gamma") / lengths)
         # Where real joints hold something, so do the ideal ones.
         allowed = self.held.left_by(self.real.scaled()[0], self.real.rank())
-        self.carried, self.travelled = carried.shape[1], np.zeros(carried.shape[1])
+        self.carried = carried.shape[1]
         self.way, self.surveyed = np.zeros(allowed.shape[1] + self.carried), False
         motions = np.hstack([allowed, carried])
         self.motions = dense.product(self.root, motions)
@@ -143,27 +143,14 @@ class JointLoads:
             self.slipping = self.ahead
         if self.over_loads and self.largest == 0.0:
             self.largest = self.size_of_loads()
-        self.missing = self._missing()
-
-    def _missing(self) -> FloatArray:
-        """Return the stiffness along freedoms that forces do not show while motions stay as they are."""
-        m = self.motions.shape[1]
-        self.missing = found = np.zeros((m, m))
-        for k in range(m - self.carried, m):
-            found[:, k] -= self._shown(k)
-        if self.carried:
-            self._evaluated()
-            rows = slice(m - self.carried, m)
-            found[rows, rows] += self.stiffness()[0][rows, rows]
-            found[: m - self.carried] = 0.0
-        return found
 
     def survey(self) -> None:
         """Find the stiffness along all motions that forces do not show, by looking from either side."""
         self.look()
         kept, motions, basis = self.state.copy(), self.motions, np.linalg.solve(self.root, self.motions)
-        found = np.zeros(self.missing.shape)
-        for k in range(len(found)):
+        m = self.way.size
+        found = np.zeros((m, m))
+        for k in range(m):
             found[:, k] -= self._shown(k)
             step = self._small_step(k)
             for side in (1.0, -1.0):
@@ -188,21 +175,20 @@ class JointLoads:
     def _shown(self, k: int) -> FloatArray:
         """Return the stiffness along one motion, motions as they are, shape (m,)."""
         step, kept, ends = self._small_step(k), self.state.copy(), []
-        self.missing = np.zeros((step.size, step.size))
         for side in (1.0, -1.0):
             JointLoads.move(self, side * step)
             ends.append(self.residual())
             self.state[:] = kept
-        self.way[:] = self.travelled[:] = 0.0
+        self.way[:] = 0.0
         return np.asarray((ends[1] - ends[0]) / (2.0 * step[k]))
 
-    def kept(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def kept(self) -> tuple[FloatArray, FloatArray]:
         """Return the place of the bodies since they were looked at, for :meth:`restore`."""
-        return self.state.copy(), self.way.copy(), self.travelled.copy()
+        return self.state.copy(), self.way.copy()
 
-    def restore(self, kept: tuple[FloatArray, FloatArray, FloatArray], factor: float) -> None:
+    def restore(self, kept: tuple[FloatArray, FloatArray], factor: float) -> None:
         """Put the bodies back, and develop friction at a multiple of its slip velocities."""
-        self.state[:], self.way[:], self.travelled[:] = kept
+        self.state[:], self.way[:] = kept
 
     def close(self) -> None:
         """Close the ideal joints of the mechanism."""
@@ -298,7 +284,7 @@ class JointLoads:
     def residual(self) -> FloatArray:
         """Return the loads that do not balance, over the motions that clearances allow, shape (m,)."""
         found = np.asarray(applied(self.motions.T, self._evaluated()) - self.asked)
-        if self.carried or self.surveyed:
+        if self.surveyed:
             # What the motions themselves change on the way.
             found -= applied(self.missing, self.way)
         if not self.over_loads:
@@ -379,7 +365,6 @@ class JointLoads:
     def move(self, step: FloatArray) -> None:
         """Displace the bodies by a step (m,)."""
         self.way += step
-        self.travelled += step[step.size - self.carried :]
         change, bodies = applied(self.motions, step), self.memory.now.bodies
         place(self.state, bodies)
         for b in range(self.n):
