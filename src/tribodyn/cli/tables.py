@@ -7,11 +7,10 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
 from typing import TYPE_CHECKING, Any, Final
 
 from tribodyn.core.quoting import GREY, PLAIN
-from tribodyn.views.numbers import columns_of, fitting, interval, rounded
+from tribodyn.views.numbers import columns_of, fitting, interval, rounded, tables_of
 
 if TYPE_CHECKING:
     from tribodyn.results.summary import KeyResult
@@ -48,10 +47,8 @@ def _numbers(summary: Mapping[str, object]) -> Iterator[str]:
     """Give a line for each number of the whole, and a table for those of several parts, such as joints."""
     from tribodyn.mechanisms.results import known
 
-    key_results = known(summary, str(summary.get("kind", "")))
-    groups = groupby(key_results.items(), key=lambda item: item[1].group if item[1].part else "")
-    for number, (part, items) in enumerate(groups):
-        group = dict(items)
+    groups = tables_of(known(summary, str(summary.get("kind", ""))))
+    for number, (part, group) in enumerate(groups.items()):
         yield from [""] if number else []
         yield from _parts(part, group, summary) if part else _lines(group, summary)
 
@@ -84,8 +81,9 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
         yield from [""] if number else []
         yield from (f"  {line}" for line in _heading({group: (group, width)}, {name: name for name in shown}))
         for part in parts:
-            row = (cells.get((part, name), f"{'–':>{_COLUMN}}") for name in shown)
-            yield f"  {part:<{width}}  {'  '.join(row)}"
+            row = [cells.get((part, name), _NONE) for name in shown]
+            if any(cell != _NONE for cell in row):
+                yield f"  {part:<{width}}  {'  '.join(row)}"
 
 
 def _of_part(name: str, one: KeyResult, factor: float, summary: Mapping[str, object]) -> str:
@@ -113,6 +111,7 @@ def _number(value: object, digits: int, factor: float = 1.0) -> str:
 
 
 _COLUMN: Final = 13
+_NONE: Final = f"{'–':>{_COLUMN}}"
 _LONGEST: Final = 22
 _MOST_ROWS: Final = 40
 _MOST_WARNINGS: Final = 5

@@ -363,7 +363,7 @@ class MechanismSystem:
                 *vibrations.notes,
                 *note(self.case),
                 *temperature_effects.of_temperatures(self.model),
-                *(contacts.notes(peaks, of_contacts) if peaks else []),
+                *(contacts.notes(peaks, of_contacts) if peaks and self._analysis == "dynamic" else []),
                 *notes_of_outputs,
                 *(why(self.case, run.solution.t, of_outputs["output_error"]) if of_outputs else ()),
                 *self._reversals.notes(float(run.solution.t_end), carried=run.carried),

@@ -22,7 +22,7 @@ from tribodyn.report.figures import figures_of
 from tribodyn.results import KeyResult, json_attribute
 from tribodyn.results.summary import caution
 from tribodyn.views.encode import inside_page
-from tribodyn.views.numbers import as_read, columns_of, fitting, in_words, interval
+from tribodyn.views.numbers import as_read, columns_of, fitting, in_words, interval, tables_of
 from tribodyn.views.playback import clock
 
 FOLDER: Final = "assumptions"  #: Folder beside a result in which its report looks for the sweep.
@@ -151,11 +151,8 @@ def grouped(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 def tables(summary: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return the key results of parts, such as joints: a table of parts and quantities for each kind."""
-    numbers = [entry for entry in known(summary, str(summary["kind"])).items() if entry[1].part]
-    return [
-        _table(group, dict(members), summary)
-        for group, members in groupby(numbers, key=lambda entry: entry[1].group)
-    ]
+    groups = tables_of(known(summary, str(summary["kind"])))
+    return [_table(group, members, summary) for group, members in groups.items() if group]
 
 
 def _table(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -238,8 +238,7 @@ def compute_missing(
     summaries |= _kept(plan, archive, means)
     # By name: samples may coincide.
     missing = list({point.name: point for point in plan.points if point.name not in summaries}.values())
-    here = missing and means.scheduler is None
-    warnings = warnings_of(plan, len(missing), means.workers) if here else ()
+    warnings = warnings_of(plan, len(missing), means.workers) if missing and means.scheduler is None else ()
     watcher.arrived(Arrival(0, len(missing), warnings=warnings))
     if not missing:
         return
@@ -294,12 +293,13 @@ def _record(plan: SweepPlan, summaries: dict[str, Summary], dataset: xr.Dataset)
         "statistics": [
             {
                 "at": {path: written(keys[path], value) for path, value in at.items()},
-                "numbers": {name: _finite(numbers) for name, numbers in found.items()},
+                "numbers": {name: finite(numbers) for name, numbers in found.items()},
             }
             for at, found in statistics(dataset)
         ],
     }
 
 
-def _finite(numbers: dict[str, float]) -> dict[str, float]:
+def finite(numbers: dict[str, float]) -> dict[str, float]:
+    """Return those of some numbers that JSON can hold."""
     return {name: value for name, value in numbers.items() if math.isfinite(value)}

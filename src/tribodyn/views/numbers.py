@@ -102,6 +102,14 @@ class Column:
     members: Mapping[str, KeyResult]  #: Key results by their names in ``summary.json``.
 
 
+def tables_of(key_results: Mapping[str, KeyResult]) -> dict[str | None, dict[str, KeyResult]]:
+    """Return key results by tables of parts; "" are those of the whole before them, None those after them."""
+    found: dict[str | None, dict[str, KeyResult]] = {}
+    for name, one in key_results.items():
+        found.setdefault(one.group if one.part else None if any(found) else "", {})[name] = one
+    return found
+
+
 def columns_of(key_results: Mapping[str, KeyResult], summary: Mapping[str, Any]) -> list[Column]:
     """Return the columns of a table that has a row for each part, each in the unit that fits its numbers."""
     groups: dict[tuple[str, str], dict[str, KeyResult]] = {}

@@ -10,6 +10,7 @@ import xarray as xr
 import tribodyn as td
 from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
+from tribodyn.mechanisms.results import summarise
 
 INERTIA = 1e-2
 RUN = {"output_interval": "1 ms"}
@@ -321,3 +322,9 @@ def test_a_controller_and_a_table_whose_instants_meet_have_one_breakpoint_there(
     drawn.load("push", "wheel", moment_z=ramp)
     # Work is integrated by parabolas over steps, which here are as long as a ramp.
     balanced(td.simulate(drawn), 1e-4)
+
+
+def test_a_constant_force_is_at_its_peak_where_it_is_fastest() -> None:
+    """From rest by 4 N over 2 kg for 0.5 s: 1 m/s in the end."""
+    told = summarise(td.simulate(slide("0.5 s").drive("push", "guide", force="4 N")))
+    assert told["drive_velocity_at_peak_m_per_s"] == pytest.approx(1.0)

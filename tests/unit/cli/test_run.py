@@ -320,3 +320,19 @@ def test_two_processes_share_the_figures_and_one_makes_up_for_the_other(
     Path("figures").mkdir()
     pictures.draw(xr.Dataset(), in_empty_directory, page=False)
     assert sorted(path.name for path in Path("figures").iterdir()) == list("abcde")
+
+
+def test_numbers_of_parts_are_one_table_for_each_kind_and_rows_without_any_are_left_out():
+    from tribodyn.cli.tables import in_words
+
+    numbers = {
+        f"{name}_{joint}": 1.5 for joint in ("pin", "rail") for name in ("force_mean_N", "drive_force_max_N")
+    }
+    given = {"kind": "mechanism", "joint_force_max_N": 2.0, **numbers, "wear_depth_nm_pin": 3.0, "steps": 7}
+    lines = [line.strip() for line in in_words(given)]
+    assert [line.split()[0] for line in lines if line.startswith(("Joints", "Drive"))] == ["Joints", "Drive"]
+    assert lines[0].startswith("Force in a joint")
+    assert lines[-1].split() == ["Steps", "7"]
+    assert sum(line.startswith("rail") for line in lines) == 2
+    alone = [line.strip() for line in in_words({"kind": "mechanism", "wear_depth_nm_pin": 3.0})]
+    assert not any(line.startswith("rail") for line in alone)

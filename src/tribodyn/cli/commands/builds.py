@@ -13,9 +13,12 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from tribodyn.studies import Builds
 
 HELP = "draw very many builds of a machine whose copies scatter, from copies simulated alone"
+_ARRAYS = ("quantiles", "low", "high", "together", "same")
 EXAMPLE = "tribodyn builds ring.toml --copies 400 --draws 100000 --limit copies_spread_max_deg=0.1"
 
 
@@ -87,15 +90,13 @@ def _limit(text: str) -> tuple[str, float]:
     return name, value
 
 
-def _draw(found: Builds, title: str, folder: os.PathLike[str]) -> None:
+def _draw(found: Builds, title: str, folder: Path) -> None:
     """Draw the distribution of each number."""
-    from pathlib import Path
-
     from tribodyn.figures.builds import draw
     from tribodyn.figures.chart import save
 
-    Path(folder).mkdir(exist_ok=True)
-    save(draw(found.numbers, title), Path(folder), "builds")
+    folder.mkdir(exist_ok=True)
+    save(draw(found.numbers, title), folder, "builds")
 
 
 def _tell(found: Builds, console: Console) -> None:
@@ -138,14 +139,8 @@ def _as_json(found: Builds) -> dict[str, object]:
         "levels": list(LEVELS),
         "numbers": {
             one.name: {
-                "label": one.label,
-                "mean": one.mean,
-                "deviation": one.deviation,
-                "quantiles": one.quantiles.tolist(),
-                "low": one.low.tolist(),
-                "high": one.high.tolist(),
-                "together": one.together.tolist(),
-                "same": one.same.tolist(),
+                **{name: getattr(one, name) for name in ("label", "mean", "deviation")},
+                **{name: getattr(one, name).tolist() for name in _ARRAYS},
                 "coupled": one.coupled.tolist() if one.together.size > 2 else None,
             }
             for one in found.numbers

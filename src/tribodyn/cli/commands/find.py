@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, show_json
@@ -13,7 +12,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
-    from tribodyn.studies.search import Question, Search
+    from tribodyn.studies.search import Search
     from tribodyn.studies.sweep import Arrival
 
 HELP = "find the last value of a parameter at which a key result keeps a limit"
@@ -66,8 +65,13 @@ def execute(args: Namespace) -> int:
     if until.others:
         console.note(f"{until.name} is taken; {', '.join(until.others)} would match, too")
     asked = question(case, path, values, until)
+
+    def arrived(arrival: Arrival) -> None:
+        if arrival.point is not None:
+            console.note(f"tried {arrival.point.label}")
+
     with kept_runs("find", args) as (directory, stop):
-        watcher = Watcher(_printer(console), stop, console.note)
+        watcher = Watcher(arrived, stop, console.note)
         search = Search(asked, directory, Means(workers=args.workers, keep_results=False), watcher)
         root = search.root(args.within / 100.0)
         search.dataset()
@@ -75,29 +79,22 @@ def execute(args: Namespace) -> int:
     return 0
 
 
-def _printer(console: Console) -> Callable[[Arrival], None]:
-    def show(arrival: Arrival) -> None:
-        if arrival.point is not None:
-            console.note(f"tried {arrival.point.label}")
-
-    return show
-
-
 def _tell(search: Search, root: float, console: Console) -> None:
     """Print the tried values and the answer."""
     from tribodyn.cases.keys import VALUE
     from tribodyn.results.summary import wear_interval
+    from tribodyn.studies.variation import written
 
     asked, limit = search.question, search.limit
     unit = asked.key_result.unit
     for value in sorted(search.tried):
-        console.say(f"  {_shown(asked, value):<16}{search.tried[value]:>12.4g} {unit}")
-    low, high = (_shown(asked, end) for end in search.bracket())
+        console.say(f"  {written(asked.key, value):<16}{search.tried[value]:>12.4g} {unit}")
+    low, high = (written(asked.key, end) for end in search.bracket())
     label, path = asked.key_result.label, asked.key.path.removesuffix(f".{VALUE}")
     reached = f"{search.tried[root]:.4g} {unit}".rstrip()
     console.say(
         f"\n{label}: {limit.sign} {limit.value:.6g} {unit}".rstrip()
-        + f" at {path} = {_shown(asked, root)}, where it is {reached}"
+        + f" at {path} = {written(asked.key, root)}, where it is {reached}"
     )
     ends = wear_interval(limit.name, asked.key_result.part, asked.case.wear_scatter())
     if ends is not None:
@@ -111,18 +108,14 @@ def _tell(search: Search, root: float, console: Console) -> None:
         show_json(
             {
                 "path": asked.key.path,
-                "value": _shown(asked, root),
+                "value": written(asked.key, root),
                 "between": [low, high],
                 "number": limit.name,
                 "limit": limit.value,
                 "reached": search.tried[root],
                 "interval": None if ends is None else [end * search.tried[root] for end in ends],
-                "tried": {_shown(asked, value): number for value, number in sorted(search.tried.items())},
+                "tried": {
+                    written(asked.key, value): number for value, number in sorted(search.tried.items())
+                },
             }
         )
-
-
-def _shown(asked: Question, value: float) -> str:
-    from tribodyn.studies.variation import written
-
-    return written(asked.key, value)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import traceback
 from argparse import ArgumentParser, Namespace
@@ -152,24 +151,20 @@ def _judge(dataset: xr.Dataset, path: Path) -> None:
 
     from tribodyn.results.store import write_text
     from tribodyn.studies import sensitivities, shares
-    from tribodyn.studies.sweep import RECORD
+    from tribodyn.studies.sweep import RECORD, finite
 
     limits: dict[str, float] = json.loads(dataset.attrs["limits"])
     given = {name: value for name, value in limits.items() if name in dataset}
     record = json.loads((path / RECORD).read_text(encoding="utf-8"))
     record["limits"] = [
-        {"name": name, "limit": given[name], **_finite(asdict(share))}
+        {"name": name, "limit": given[name], **finite(asdict(share))}
         for name, share in shares(dataset, given).items()
     ]
     record["sensitivities"] = {
-        name: {path: _finite(asdict(index)) for path, index in found.items()}
+        name: {path: finite(asdict(index)) for path, index in found.items()}
         for name, found in sensitivities(dataset).items()
     }
     write_text(path / RECORD, json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
-
-
-def _finite(numbers: dict[str, float]) -> dict[str, float]:
-    return {name: value for name, value in numbers.items() if math.isfinite(value)}
 
 
 def _shown(asked: str | None, case: Case) -> list[str]:

@@ -103,12 +103,16 @@ class Contacts:
         return messages
 
     def notes(self, peaks: Mapping[str, FloatArray], found: Mapping[str, FloatArray]) -> list[str]:
-        """Return a remark on pressures with damping, of many surfaces that with the largest share."""
+        """Return a remark on pressures with damping, of many surfaces that with the largest share.
+
+        Of a joint the surface with the largest pressure counts: at that attitude others carry less.
+        """
         pressure, at_rest = peaks["pressure_peak"], found["pressure_at_rest"]
+        hardest = {self.places[s].joint: s for s in np.argsort(np.nan_to_num(pressure)).tolist()}
         messages = {
             s: text
-            for s, name in enumerate(self.names)
-            for text in named(name, [of_damping_pressure(float(pressure[s]), float(at_rest[s]))])
+            for s in hardest.values()
+            for text in named(self.names[s], [of_damping_pressure(float(pressure[s]), float(at_rest[s]))])
         }
         most = sorted(messages, key=lambda s: float(at_rest[s] - pressure[s]))[:_NOTED]
         left_out = len(messages) - len(most)

@@ -17,6 +17,8 @@ from tribodyn.results.wear_numbers import wear_life, wear_rate
 if TYPE_CHECKING:
     import xarray as xr
 
+_SAME: Final = 1e-9  #: Difference of efforts over the largest one that counts as none.
+
 
 def _outside(label: str, unit: str, quantity: str, *, scale: float = 1.0) -> ByPart:
     """Return the largest value outside the impacts after reversals, of one joint or of all of them."""
@@ -78,11 +80,13 @@ def _peak(quantity: str, dataset: "xr.Dataset", joints: slice) -> float:
 
 def _rate_at_peak(effort: str, other: str, dataset: "xr.Dataset", joints: slice) -> float:
     values = settled(dataset, column(dataset, effort)[:, joints])
-    where = np.unravel_index(np.argmax(np.abs(values)), values.shape)
-    power = settled(dataset, column(dataset, "drive_power")[:, joints])[where]
+    size, powers = np.abs(values), settled(dataset, column(dataset, "drive_power")[:, joints])
+    # A constant effort is at its peak all the time: the fastest point counts.
+    peak_power = np.where(size >= (1.0 - _SAME) * np.max(size), np.abs(powers), -1.0)
+    where = np.unravel_index(np.argmax(peak_power), values.shape)
     both = settled(dataset, column(dataset, other)[:, joints])[where]
     nothing = both or abs(values[where]) < readings.NOTHING or "mode" in dataset.dims
-    return math.nan if nothing else round(float(abs(power / values[where])), 20)
+    return math.nan if nothing else round(float(abs(powers[where] / values[where])), 20)
 
 
 #: Numbers for the size of motors and actuators, by name.

@@ -9,6 +9,7 @@ import xarray as xr
 
 from mebdf.arrays import FloatArray
 from tribodyn.core.splines import Cubics
+from tribodyn.mechanism.assembly.skeleton import case_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.results.copies import copies_of, worst
 from tribodyn.mechanism.results.joint_readings import WHOLE, offset, sizes
@@ -249,7 +250,9 @@ def guides(dataset: xr.Dataset) -> list[Panel]:
     """Return the contact of blocks with their guides as steps, and their tilts in the play [°]."""
     real = np.isfinite(dataset["guide_contact"].values).any(axis=0)
     names = [name for name, wanted in zip(_names(dataset, "joint"), real, strict=True) if wanted]
-    tilt = np.hypot(*(dataset[name].values[:, real] for name in ("tilt_x", "tilt_y")))
+    tilt, case = np.hypot(*(dataset[name].values[:, real] for name in ("tilt_x", "tilt_y"))), case_of(dataset)
+    # A pin turns in its slot, which is no tilt in a play.
+    tilt[:, [case is not None and case.joints[name].type == "slot" for name in names]] = 0.0
     return _panels(
         (
             "contact: free 0, corner 1,\nface 2, opposite faces 3",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -128,12 +130,17 @@ def test_of_many_joints_those_loaded_most_are_shown(many: xr.Dataset) -> None:
 
 
 def test_the_same_note_of_many_surfaces_is_given_for_a_few_with_the_number_of_the_others() -> None:
-    contacts = Contacts((), (), tuple(NAMES), ())
+    places = [SimpleNamespace(joint=joint) for joint in range(12)]
+    contacts = Contacts((), (), tuple(NAMES), places)
     peaks = {"pressure_peak": np.arange(1.0, 13.0) * 1e6}
     notes = contacts.notes(peaks, {"pressure_at_rest": np.full(12, 0.5e6)})
     assert [note.split()[1] for note in notes[:-1]] == NAMES[-4:]
     assert notes[-1] == "The same of 8 more surfaces, where damping carries less."
     assert len(contacts.notes(peaks, {"pressure_at_rest": peaks["pressure_peak"]})) == 0
+    # Two surfaces to a joint: at the attitude of the largest pressure in it the other one carries less.
+    pairs = Contacts((), (), tuple(NAMES), [SimpleNamespace(joint=k // 2) for k in range(12)])
+    notes = pairs.notes(peaks, {"pressure_at_rest": np.full(12, 0.5e6)})
+    assert [note.split()[1] for note in notes[:-1]] == NAMES[5::2]
 
 
 def test_a_figure_of_many_surfaces_shows_those_with_the_largest_values(many: xr.Dataset) -> None:
