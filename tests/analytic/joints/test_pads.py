@@ -110,7 +110,7 @@ def test_costs_count_the_nodes_that_pads_have() -> None:
     ("keys", "words"),
     [
         ({"pads": 2}, "clearance.pads"),
-        ({"pad_width": "400 mm"}, "no room between"),
+        ({"pad_width": "400 mm"}, "joints.guide.clearance.pad_width: that of 4 pads leaves no room between"),
         ({"pad_width": None}, "pad_width"),
     ],
 )

@@ -12,6 +12,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanism.assembly.parts_by_number import model_of
 from tribodyn.mechanism.assembly.records import mechanism_data
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
+from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.studies.plan import make_plan
 
@@ -186,3 +187,21 @@ def test_what_does_nothing_is_reported_or_refused() -> None:
 def test_a_run_says_that_assembly_moved_a_body() -> None:
     case = parsed(IDEAL).replace({"joints.wrist.other_point": "175, 0, 0 mm", "run.analysis": "kinematic"})
     assert "assembly moved slider by 5 mm" in td.simulate(case).attrs["notes"]
+
+
+@pytest.mark.parametrize(("stiffness", "warns"), [("1e7 N/m", False), ("1e16 N/m", True)])
+def test_a_stiffness_is_reported_whose_force_is_the_rounding_of_positions(
+    stiffness: str, warns: bool
+) -> None:
+    ends = 'between = ["ground", "slider"]\nfirst_point = "-1, 0, 0 m"\nsecond_point = "170, 0, 0 mm"'
+    told = said(f'[springs.coil]\n{ends}\nstiffness = "{stiffness}"\n')
+    assert ("springs.coil.stiffness is a stiffness of 1e+16 N/m: the rounding of positions" in told) == warns
+
+
+@pytest.mark.parametrize("factor", [1.0, 1e6])
+def test_a_beam_of_a_million_times_its_stiffness_is_reported(factor: float) -> None:
+    ring = parsed(TEMPLATES["vsv-ring"].text)
+    words = " ".join(
+        ring.replace({"bodies.lever.beam.young_modulus": f"{110 * factor} GPa"}).remarks().warnings
+    )
+    assert ("beam.young_modulus is a stiffness of" in words) == (factor > 1.0)

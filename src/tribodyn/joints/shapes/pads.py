@@ -41,7 +41,7 @@ class Pads:
             "ring", radius=self.radius, radial=self.clearance, length=self.length, pad_width=self.width
         )
         if self.count * self.width > 2.0 * math.pi * (self.radius + self.clearance) * (1.0 + 1e-9):
-            raise InputError(f"of {self.count} pads leaves no room between them", key="pad_width")
+            raise InputError(f"that of {self.count} pads leaves no room between them", key="pad_width")
 
     @property
     def edges(self) -> FloatArray:

@@ -265,8 +265,8 @@ class Equilibria:
         left = np.linalg.solve(self._loads.root, applied(self._loads.motions, self._loads.residual()))
         body = self._model.bodies[int(np.argmax(np.linalg.norm(left.reshape(-1, 6), axis=1)))]
         return (
-            f"the search for it did not converge: loads on body {body} do not balance; less friction or more "
-            "clearance in its joints, more positions, or a dynamic run may help"
+            f"the search for it did not converge: loads on body {body} do not balance; more positions, "
+            "friction.rest = true, more clearance or less friction in its joints, or a dynamic run may help"
         )
 
     def _displaced(self, ideal: FloatArray, ways: FloatArray) -> FloatArray:

@@ -14,6 +14,7 @@ from tribodyn.cases.joint_keys import CONFORMAL, NOTHING
 from tribodyn.cases.temperature import Names, time_followed
 from tribodyn.contact import Liner
 from tribodyn.contact.bulk import elastic_bodies
+from tribodyn.core.errors import below
 from tribodyn.core.signals import Signal
 from tribodyn.joints import Friction
 from tribodyn.joints.clearances import Clearance, contact_table
@@ -149,7 +150,8 @@ def _liner(case: MechanismCase, name: str, keys: ClearanceKeys) -> Liner | None:
 
 def _shape(case: MechanismCase, name: str, joint: JointKeys, keys: ClearanceKeys) -> Shape:
     """Return the shape of a clearance at the temperatures of the run."""
-    cold = _cold(case, joint, keys)
+    with below(f"joints.{name}.clearance"):
+        cold = _cold(case, joint, keys)
     return cold if isinstance(cold, Mesh) else _hot(case, name, keys, cold)
 
 
