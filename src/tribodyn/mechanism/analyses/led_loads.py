@@ -204,7 +204,7 @@ class LedLoads(JointLoads):
         flat = max(_FLAT * float(np.max(np.abs(values))), rounding)
         stiff = np.abs(values) > flat
         by_springs = self._by_springs(moving)
-        self._lock(moving, by_springs)
+        self._lock(moving, by_springs, rounding)
         # Contact comes first: without it nothing says how its forces turn with the bodies.
         stiff &= not self.waits
         self.turning = vectors[:, stiff].T @ (whole - by_springs) @ vectors[:, stiff]
@@ -215,10 +215,10 @@ class LedLoads(JointLoads):
         self._evaluate(self.velocity)
         return self.held_by(moving, ShaftMotions(moving, self.ends[:, self.others]), self.others)[0]
 
-    def _lock(self, moving: FloatArray, stiffness: FloatArray) -> None:
+    def _lock(self, moving: FloatArray, stiffness: FloatArray, rounding: float) -> None:
         """Take from the velocities what changes the lengths of springs along the freedoms (6 n, m)."""
         values, vectors = dense.eigh(0.5 * (stiffness + stiffness.T))
-        springs = values > _FLAT * float(np.max(np.abs(values)))
+        springs = values > max(_FLAT * float(np.max(np.abs(values))), rounding)
         if not np.any(springs):
             return
         moving, values = moving @ vectors[:, springs], values[springs]
