@@ -117,6 +117,30 @@ def test_energy_of_a_slider_crank_is_accounted_for() -> None:
     assert "plastic_share" not in rigid
 
 
+def test_a_campaign_on_elastic_bodies_wears_off_what_friction_heats() -> None:
+    """By Archard's law the volume follows force and way, as heat does, wherever in the bore they are."""
+    case = td.load_case("slider-crank").replace({"wear.cycles": 2000, "run.cycles": 1})
+    found = []
+    for bulk in ("none", "conformal"):
+        run = td.simulate(case.replace({f"{WRIST}.bulk": bulk}))
+        assert run.attrs["failure"] == ""
+        assert run.attrs["wear_cycles_reached"] == 2000.0
+        found.append(run.attrs["worn_volume"] / run["energy_friction"].values[-1])
+    assert found[1] == pytest.approx(found[0], rel=0.01)
+
+
+def test_shafts_on_elastic_bodies_vibrate_more_slowly_in_every_mode() -> None:
+    case = td.load_case("four-bar", {"run.analysis": "vibrations", "run.positions": 2})
+    real = [name for name, joint in case.joints.items() if joint.clearance is not None]
+    found = []
+    for bulk in ("none", "conformal"):
+        run = td.simulate(case.replace({f"joints.{name}.clearance.bulk": bulk for name in real}))
+        assert run.attrs["failure"] == ""
+        found.append(run["natural_frequency"].values[0])
+    assert found[1].size == found[0].size
+    assert np.all((0.1 * found[0] < found[1]) & (found[1] < found[0]))
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -1,5 +1,6 @@
 """Elastic bodies against closed forms: deflection, elastica, frequencies, stiffening, rigid limit."""
 
+import math
 from typing import Any, Final
 
 import numpy as np
@@ -77,6 +78,23 @@ def test_a_cantilever_bent_by_thirty_degrees_follows_the_elastica() -> None:
     assert place[[0, 2]] == pytest.approx([along, down], rel=4e-3)
     w, _, y, _ = found["orientation"].sel(body="beam:8").values
     assert 2.0 * np.arctan2(abs(y), w) == pytest.approx(turn, rel=4e-3)
+
+
+@pytest.mark.parametrize(
+    ("section", "inner"), [('section = "circle"', 0.0), ('section = "tube"\ninner_radius = "2 mm"', 2.0)]
+)
+def test_an_angled_bar_bends_in_both_legs_and_twists_in_the_first(section: str, inner: float) -> None:
+    """P at the end of the second leg b, across both: P a³/3EI + P b³/3EI + P b² a/GJ, and little shear."""
+    text = BEAM.replace('"0, 0, 0, 500, 0, 0 mm"', '"0, 0, 0, 200, 0, 0, 200, 150, 0 mm"')
+    text = text.replace('width = "20 mm"\nheight = "5 mm"', f'{section}\nradius = "3 mm"')
+    load = TIP | {"loads.tip.point": "200, 150, 0 mm", "loads.tip.force": "1 N", "run.analysis": "static"}
+    found = td.simulate(with_entries(parsed(text.replace("height_axis = [0, 0, 1]\n", "")), load, "test"))
+    second = math.pi / 4.0 * (3e-3**4 - (1e-3 * inner) ** 4)
+    a, b, rigidity = 0.2, 0.15, 200e9 * second
+    twist = rigidity / 1.3  # G J with a Poisson's ratio of 0.3: J is twice I, and G is E/2.6
+    expected = (a**3 + b**3) / (3.0 * rigidity) + b**2 * a / twist
+    tip = found["position"].isel(time=-1).sel(body="beam:8", axis="z")
+    assert float(tip) == pytest.approx(expected, rel=5e-3)
 
 
 def test_the_first_three_frequencies_are_within_half_a_percent() -> None:
