@@ -1,6 +1,7 @@
 """The frame at rest, and frames of joints."""
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -12,13 +13,24 @@ GROUND: Final = "ground"  #: Name of the body that never moves.
 
 
 def frame(axis: FloatArray, second: FloatArray) -> FloatArray:
-    """Return axes as columns: z along ``axis``, x near ``second``, or anywhere if they are parallel."""
+    """Return axes as columns: z along ``axis``, x near ``second``, or anywhere if they are parallel.
+
+    They cannot be written to: joints of one case, and of the points of a sweep, share them.
+    """
+    return _frame(np.asarray(axis, np.float64).tobytes(), np.asarray(second, np.float64).tobytes())
+
+
+@lru_cache(maxsize=4096)
+def _frame(along: bytes, near: bytes) -> FloatArray:
+    axis, second = np.frombuffer(along), np.frombuffer(near)
     z = axis / dense.norm(axis)
     x = second - z * dense.product(z, second)
     if dense.norm(x) < 1.0e-8 * max(float(dense.norm(second)), 1.0e-300):
         x = cross(z, np.eye(3)[int(np.argmin(np.abs(z)))])
     x = x / dense.norm(x)
-    return np.array([x, cross(z, x), z]).T
+    found = np.array([x, cross(z, x), z]).T
+    found.flags.writeable = False
+    return found
 
 
 def cross(first: Iterable[float], second: Iterable[float]) -> FloatArray:

@@ -11,7 +11,7 @@ import importlib
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Final, Protocol, Self, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +22,7 @@ from tribodyn.cases.joint_keys import Wear
 from tribodyn.cases.load import BuiltIn
 from tribodyn.cases.messages import Remarks
 from tribodyn.core.problem import Problem, Solution
+from tribodyn.core.remembered import Remembered
 from tribodyn.mechanisms.bushing import Carried, WearNodes, Worn
 from tribodyn.mechanisms.workload import Workload
 from tribodyn.results.summary import KeyResult
@@ -244,6 +245,10 @@ def plain(name: str) -> str:
     return re.sub(r"[-\[:]", "_", name).replace("]", "")
 
 
+#: Key results of the parts of the last cases: those of a sweep have the same.
+_of_parts: Final[Remembered[dict[str, KeyResult]]] = Remembered(8)
+
+
 @dataclass(frozen=True)
 class MechanismDescriptor:
     """All that is known of one kind of case.
@@ -286,13 +291,17 @@ class MechanismDescriptor:
 
     def key_results_of(self, parts: Mapping[str, Iterable[str]]) -> dict[str, KeyResult]:
         """Return all key results in reading order, with those of parts, given as names by table."""
-        named = {
-            f"{name}_{plain(part)}": made(part)
-            for table, numbers in self.by_part.items()
-            for part in parts.get(table, ())
-            for name, made in numbers.items()
-        }
-        return {**self.key_results, **named}
+        asked = {table: tuple(parts.get(table, ())) for table in self.by_part}
+
+        def of_parts() -> dict[str, KeyResult]:
+            return {
+                f"{name}_{plain(part)}": made(part)
+                for table, numbers in self.by_part.items()
+                for part in asked[table]
+                for name, made in numbers.items()
+            }
+
+        return {**self.key_results, **_of_parts.made((self.folder, *asked.items()), of_parts)}
 
     @property
     def kind(self) -> str:

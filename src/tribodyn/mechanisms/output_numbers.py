@@ -13,7 +13,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.mechanism_protocol import ByPart, plain
 from tribodyn.mechanisms.output_keys import Instant
-from tribodyn.results.reading import column, entries, peak, settled, sustained
+from tribodyn.results.reading import column, entries, number_in, peak, settled, sustained
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import ERROR_UNITS
 
@@ -175,7 +175,7 @@ MEASURES: Final[dict[str, tuple[str, str, Reduction]]] = {
 
 def number_of(dataset: xr.Dataset, output: str) -> int:
     """Return the number of an output, whose name may be that of a key result; an unknown one raises."""
-    return [plain(str(name)) for name in entries(dataset, "output")].index(plain(output))
+    return number_in(dataset, "output", plain(output), plain)
 
 
 def _made(measure: str, unit: str, output: str) -> KeyResult:
@@ -252,10 +252,10 @@ def _at(variable: str, unit: str, instant: str) -> KeyResult:
     _, shown, scale = ERROR_UNITS[unit]
 
     def compute(dataset: xr.Dataset) -> float:
-        k = entries(dataset, "instant").tolist().index(instant)
+        values, k = column(dataset, variable), number_in(dataset, "instant", instant)
         output = number_of(dataset, str(entries(dataset, "instant_output")[k]))
         of_unit = str(entries(dataset, "output_unit")[output]) == unit
-        return scale * float(column(dataset, variable)[k]) if of_unit else math.nan
+        return scale * float(values[k]) if of_unit else math.nan
 
     return KeyResult(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 
 SHORT: Final = 0.01  #: Share of the time that impacts may last; a sustained maximum leaves it out.
 _ROUNDING: Final = 1e-9
+_Value = TypeVar("_Value")
 
-_Read: TypeAlias = "dict[object, tuple[xr.Dataset, NDArray[Any]]]"
+_Read: TypeAlias = "dict[object, tuple[xr.Dataset, Any]]"
 #: Values read off results, by keys that hold as long as the results are held, too.
 _read: Final[ContextVar[_Read | None]] = ContextVar("_read", default=None)
 
@@ -35,7 +36,7 @@ def reading_once() -> Iterator[None]:
         _read.reset(token)
 
 
-def _once(dataset: xr.Dataset, what: object, read: Callable[[], NDArray[Any]]) -> NDArray[Any]:
+def _once(dataset: xr.Dataset, what: object, read: Callable[[], _Value]) -> _Value:
     """Return a value read off a result, from an earlier time within :func:`reading_once`."""
     known = _read.get()
     if known is None:
@@ -43,7 +44,7 @@ def _once(dataset: xr.Dataset, what: object, read: Callable[[], NDArray[Any]]) -
     key = id(dataset), what
     if key not in known:
         known[key] = dataset, read()
-    return known[key][1]
+    return cast(_Value, known[key][1])
 
 
 def entries(dataset: xr.Dataset, name: str) -> NDArray[Any]:
@@ -54,6 +55,16 @@ def entries(dataset: xr.Dataset, name: str) -> NDArray[Any]:
         return np.asarray(variable.values)
     # Of a dimension they are kept in its index, which returns them four times as fast.
     return _once(dataset, name, lambda: np.asarray(variable.to_index()))
+
+
+def number_in(dataset: xr.Dataset, name: str, entry: str, spelled: Callable[[str], str] = str) -> int:
+    """Return the number of the first entry of a dimension that is spelled so; an unknown one raises."""
+
+    def numbers() -> dict[str, int]:
+        found = [spelled(str(one)) for one in entries(dataset, name)]
+        return {one: len(found) - k for k, one in enumerate(reversed(found), 1)}
+
+    return _once(dataset, (name, spelled), numbers)[entry]
 
 
 def column(dataset: xr.Dataset, name: str) -> FloatArray:

@@ -139,7 +139,9 @@ def led_along(
     Outputs that follow the drives alone come with no joint.
     """
     follows = not assembly.strain and math.isinf(path.turn) and path.times.size > 1
-    pushed = tuple(assembly.model.case.pushed) if follows and IdealMechanism(assembly).freedoms else ()
+    pushed = tuple(assembly.model.case.pushed) if follows else ()
+    if pushed and not IdealMechanism(assembly).freedoms:
+        pushed = ()
     found: dict[tuple[str, ...], list[int]] = {}
     for number, output in enumerate(outputs):
         joints = (output.keys.follows,) if follows and output.keys.follows else pushed

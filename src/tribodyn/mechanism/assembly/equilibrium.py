@@ -35,7 +35,7 @@ from tribodyn.kernels.mechanism.newton import N_PLACES
 from tribodyn.mechanism.assembly.assembly import Assembly, memory_of
 from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.assembly.decompositions import row_space
-from tribodyn.mechanism.assembly.mechanism_problem import mechanism_problem
+from tribodyn.mechanism.assembly.mechanism_problem import FUNCTIONS
 from tribodyn.mechanism.assembly.shaft_motions import (
     JointNodes,
     ShaftMotions,
@@ -78,9 +78,7 @@ class JointLoads:
         self.n = ideal.n
         self.state = np.zeros(N_STATES * self.n)
         collect(ideal.now.bodies, self.state)
-        problem = mechanism_problem(assembly, duration=1.0, rtol=0.1, state=self.state)
-        self.data, self.memory = problem.data, memory_of(assembly, self.state)
-        self._forces = problem.functions.jac
+        self.data, self.memory = assembly.data, memory_of(assembly, self.state)
         couplings = self.data.parts.couplings
         self.couplings = self.memory.now.couplings
         self.contacts = nodes_of(self.data.contact, np.flatnonzero(couplings.force == CONTACT))
@@ -249,7 +247,7 @@ class JointLoads:
         """Fill forces and slopes of all couplings at given velocities; return the force on bodies (6 n,)."""
         y = self.state.copy()
         y.reshape(-1, N_STATES)[:, VELOCITY:] = velocity
-        self._forces(self.ideal.t, y, self.data, self.memory, np.zeros(y.size), self.entries)
+        FUNCTIONS.jac(self.ideal.t, y, self.data, self.memory, np.zeros(y.size), self.entries)
         forces = np.array(self.memory.now.bodies.force[: self.n]).ravel()
         return forces + self._pushes("constraint", self.laws)
 
