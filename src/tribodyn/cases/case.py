@@ -33,7 +33,7 @@ from tribodyn.cases.tables import (
     FROZEN,
     Tables,
     alternatives,
-    is_empty_table,
+    empty_tables,
     keys_at,
     keys_in,
     nested,
@@ -326,8 +326,9 @@ def build(
     declared = keys_of(model)
     keys = keys_at(model, entries)
     entries = plain_entries(entries, keys)
-    given = {path: entry for path, entry in entries.items() if not is_empty_table(path, entry, declared)}
-    entries = {path: entry for path, entry in given.items() if not is_empty_table(path, entry, keys)}
+    left_out, empty = empty_tables(entries, declared), empty_tables(entries, keys)
+    given = {path: entry for path, entry in entries.items() if path not in left_out}
+    entries = {path: entry for path, entry in given.items() if path not in empty}
     faults = Faults(found)
     entries = _known(entries, keys, declared, faults)
     with faults.noted():
@@ -341,7 +342,6 @@ def build(
     values, linked = read_all(entries, keys, scope, faults)
     if scope.refused:
         faults.raise_any()
-    empty = {path: entry for path, entry in given.items() if is_empty_table(path, entry, keys)}
     there = [path for path in given if path not in declared and (path in keys or path in empty)]
     named = [path.rpartition(".")[0] if path in keys else path for path in there]
     asked = Asked(keys, entries, source)

@@ -114,14 +114,12 @@ def tables_of_surfaces(keys: Iterable[str]) -> list[str]:
 
 
 def _with_scans_read(entries: Mapping[str, Entry], keys: Mapping[str, Key]) -> dict[str, Entry]:
-    """Return the entries of one set of surfaces with the numbers of its scans."""
+    """Return the entries of one set of surfaces with the numbers of its scans, of which it names one."""
     given = [path for path in (COMBINED, *EACH) if path in entries]
     options = [path for path in _OPTION_PATHS if path in entries]
     if not given:
-        if options:
-            where = entries[options[0]].source
-            raise InputError(f"this belongs to a scan; {COMBINED} is not given", key=options[0], source=where)
-        return dict(entries)
+        where = entries[options[0]].source
+        raise InputError(f"this belongs to a scan; {COMBINED} is not given", key=options[0], source=where)
     for path in EACH:
         if given != [COMBINED] and path not in given:
             entry = entries[given[0]]

@@ -212,9 +212,10 @@ def _paths(values: Mapping[str, Any], prefix: str = "") -> list[str]:
     return found
 
 
-def is_empty_table(path: str, entry: Entry, keys: Mapping[str, Key]) -> bool:
-    """Tell whether an entry is a table of the case that a file left empty."""
-    return entry.value == {} and not entry.text and any(key.startswith(f"{path}.") for key in keys)
+def empty_tables(entries: Mapping[str, Entry], keys: Iterable[str]) -> set[str]:
+    """Return the paths of the entries that are tables of some keys and that a file left empty."""
+    found = {path for path, entry in entries.items() if entry.value == {} and not entry.text}
+    return found and found & {path[: dot.start()] for path in keys for dot in re.finditer(r"\.", path)}
 
 
 def nested(values: Mapping[str, Value], tables: Iterable[str]) -> dict[str, Any]:

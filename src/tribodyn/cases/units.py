@@ -186,7 +186,8 @@ def from_si(value: float, unit: str) -> str:
 def _written(value: float, unit: str, _sign: float) -> str:
     scale = _scale(unit)
     in_unit = _ARITHMETIC.divide(Decimal(value) - scale.zero, scale.factor)
-    for digits in range(1, 18):
+    # A number of fewer digits is what it rounds to with twelve, too; not so where a zero was taken off.
+    for digits in range(1 if scale.zero else 12, 18):
         number = float(f"{in_unit:.{digits - 1}e}")
         # As to_si does it, but a rounded number may be too large here, which is no error.
         if scale.si(Decimal(repr(number))) == value:

@@ -13,10 +13,7 @@ GROUND: Final = "ground"  #: Name of the body that never moves.
 
 
 def frame(axis: FloatArray, second: FloatArray) -> FloatArray:
-    """Return axes as columns: z along ``axis``, x near ``second``, or anywhere if they are parallel.
-
-    They cannot be written to: joints of one case, and of the points of a sweep, share them.
-    """
+    """Return axes as columns, not to be written to: z along ``axis``, x near ``second``, or anywhere."""
     return _frame(np.asarray(axis, np.float64).tobytes(), np.asarray(second, np.float64).tobytes())
 
 

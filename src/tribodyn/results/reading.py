@@ -59,12 +59,8 @@ def entries(dataset: xr.Dataset, name: str) -> NDArray[Any]:
 
 def number_in(dataset: xr.Dataset, name: str, entry: str, spelled: Callable[[str], str] = str) -> int:
     """Return the number of the first entry of a dimension that is spelled so; an unknown one raises."""
-
-    def numbers() -> dict[str, int]:
-        found = [spelled(str(one)) for one in entries(dataset, name)]
-        return {one: len(found) - k for k, one in enumerate(reversed(found), 1)}
-
-    return _once(dataset, (name, spelled), numbers)[entry]
+    names = _once(dataset, (name, spelled), lambda: [spelled(str(one)) for one in entries(dataset, name)])
+    return names.index(entry)
 
 
 def column(dataset: xr.Dataset, name: str) -> FloatArray:

@@ -10,7 +10,7 @@ what independence leaves out: their numbers over those of the copies alone are a
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Final, Self, TypeAlias, cast
 
@@ -169,9 +169,8 @@ def numbers_of_builds(errors: FloatArray) -> FloatArray:
         return np.zeros((0, len(NUMBERS)))
     high, low = errors.max(axis=1), errors.min(axis=1)
     sigma = np.sqrt(np.mean(np.var(errors, axis=1), axis=1))
-    return np.column_stack(
-        [np.max(high - low, axis=1), sigma, np.maximum(high.max(axis=1), -low.min(axis=1))]
-    )
+    largest = np.maximum(high.max(axis=1), -low.min(axis=1))
+    return np.column_stack([np.max(high - low, axis=1), sigma, largest])
 
 
 class Copies:
@@ -198,7 +197,7 @@ class Copies:
         order = np.arange(size).reshape(builds, of_build).T.ravel()
         errors = self._rest[rest[order]]
         errors += terms[order] @ self._factors
-        return errors.reshape(of_build, builds, -1).swapaxes(0, 1)
+        return np.asarray(errors.reshape(of_build, builds, -1).swapaxes(0, 1))
 
     def again(self, random: np.random.Generator) -> Self:
         """Return copies as many as these, drawn from them with replacement."""
@@ -209,10 +208,6 @@ class Copies:
 def _terms(inputs: FloatArray) -> FloatArray:
     """Return the terms of the polynomial: all of second order, and cubes."""
     return np.hstack([quadratic(inputs), inputs * inputs * inputs])
-
-
-def _one_of(values: FloatArray, random: np.random.Generator, size: int) -> FloatArray:
-    return random.choice(values, size)
 
 
 def draw(copies: Copies, of_build: int, draws: int, random: np.random.Generator) -> FloatArray:
@@ -329,7 +324,7 @@ class BuildRuns:
             elif one.distribution == "uniform":
                 found.append(lambda random, size: random.uniform(-math.sqrt(3.0), math.sqrt(3.0), size))
             else:
-                found.append(partial(_one_of, values))
+                found.append(lambda random, size, values=values: random.choice(values, size))
         return found
 
     def contributions(self, errors: FloatArray) -> dict[str, float]:

@@ -3,7 +3,7 @@
 import hashlib
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -172,16 +172,14 @@ def _drawn(scatters: Sequence[Scatter], sampling: Sampling) -> Axis:
 def _points(case: Case, axes: Sequence[Axis], n_points: int) -> tuple[Point, ...]:
     places = itertools.product(*(range(axis.size) for axis in axes))
     return tuple(
-        _point(case, _together(axes, place), f"point {number} of {n_points}")
+        _point(case, dict(_together(axes, place)), f"point {number} of {n_points}")
         for number, place in enumerate(places, 1)
     )
 
 
-def _together(axes: Sequence[Axis], place: Sequence[int]) -> dict[str, str]:
-    changes: dict[str, str] = {}
+def _together(axes: Sequence[Axis], place: Sequence[int]) -> Iterator[tuple[str, str]]:
     for axis, i in zip(axes, place, strict=True):
-        changes |= axis.changes(i)
-    return changes
+        yield from axis.changes(i).items()
 
 
 def _point(case: Case, changes: dict[str, str], which: str) -> Point:

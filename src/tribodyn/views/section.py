@@ -90,19 +90,24 @@ def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:
     if joint not in names:
         words = f"{as_given(joint)}; allowed: a joint, {', '.join(names) or 'none here'}{meant(joint, names)}"
         raise InputError(words, key="over")
-    label, values = _coordinate(dataset, names.index(joint))
+    label, values = _coordinates(dataset)[names.index(joint)]
     if label.startswith("angle") and np.ptp(values) > 360.0:
         values = values % 360.0
         values[1:][np.abs(np.diff(values)) > 180.0] = np.nan
     return label, values
 
 
-def _coordinate(dataset: xr.Dataset, joint: int) -> tuple[str, FloatArray]:
-    """Return label and values of the coordinate of a joint: the position of a driven slide, or its angle."""
-    name = dataset["joint"].values[joint]
-    if "displacement" in dataset and np.nan_to_num(dataset["drive_force"].values[:, joint]).any():
-        return f"position of {name} [mm]", 1e3 * dataset["displacement"].values[:, joint, 2]
-    return f"angle of {name} [°]", np.degrees(dataset["joint_angle"].values[:, joint])
+def _coordinates(dataset: xr.Dataset) -> list[tuple[str, FloatArray]]:
+    """Return label and values of the coordinate of each joint: position of a driven slide, or angle."""
+    names, angles = dataset["joint"].values, dataset["joint_angle"].values
+    places = dataset["displacement"].values if "displacement" in dataset else None
+    slides = np.nan_to_num(dataset["drive_force"].values).any(axis=0)
+    return [
+        (f"position of {name} [mm]", 1e3 * places[:, k, 2])
+        if places is not None and slides[k]
+        else (f"angle of {name} [°]", np.degrees(angles[:, k]))
+        for k, name in enumerate(names)
+    ]
 
 
 def coordinates(dataset: xr.Dataset, scale: float) -> list[dict[str, Any]]:
@@ -112,7 +117,7 @@ def coordinates(dataset: xr.Dataset, scale: float) -> list[dict[str, Any]]:
     """
     if "joint_angle" not in dataset or "drive_moment" not in dataset:
         return []
-    labels, columns = zip(*(_coordinate(dataset, k) for k in range(dataset.sizes["joint"])), strict=True)
+    labels, columns = zip(*_coordinates(dataset), strict=True)
     values, time, names = np.stack(columns, axis=1), series(dataset, "time", scale), dataset["joint"].values
     efforts = (np.nan_to_num(np.abs(dataset[name].values)) for name in ("drive_moment", "drive_force"))
     driven = sum(efforts).max(axis=0) > 0.0
