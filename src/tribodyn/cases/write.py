@@ -40,7 +40,8 @@ def to_toml(
         table: [
             line
             for key in inside
-            for line in _lines(_in_force(group, key, idle), key, linked.get(key.path), own, origins, comments)
+            for value in [None if key.path in idle else value_at(group, key.name)]
+            for line in _lines(value, key, linked.get(key.path), own, origins, comments)
         ]
         for table, inside in groupby(keys_in(case).values(), key=lambda key: key.table)
         if (group := value_at(case, table) if table else case) is not None
@@ -98,10 +99,6 @@ def _head(kind: str) -> Iterator[str]:
     yield '# Values with a unit are text, "20 um"; others are bare. Keys left out take their defaults.'
     yield f"# {_ASSUMED}: a value without a source."
     yield ""
-
-
-def _in_force(group: BaseModel, key: Key, idle: Collection[str]) -> Any:
-    return None if key.path in idle else value_at(group, key.name)
 
 
 def _lines(

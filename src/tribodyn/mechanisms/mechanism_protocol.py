@@ -291,17 +291,16 @@ class MechanismDescriptor:
 
     def key_results_of(self, parts: Mapping[str, Iterable[str]]) -> dict[str, KeyResult]:
         """Return all key results in reading order, with those of parts, given as names by table."""
-        asked = {table: tuple(parts.get(table, ())) for table in self.by_part}
-
-        def of_parts() -> dict[str, KeyResult]:
-            return {
+        asked = [(table, part) for table in self.by_part for part in parts.get(table, ())]
+        named = _of_parts.made(
+            (self.folder, *asked),
+            lambda: {
                 f"{name}_{plain(part)}": made(part)
-                for table, numbers in self.by_part.items()
-                for part in asked[table]
-                for name, made in numbers.items()
-            }
-
-        return {**self.key_results, **_of_parts.made((self.folder, *asked.items()), of_parts)}
+                for table, part in asked
+                for name, made in self.by_part[table].items()
+            },
+        )
+        return {**self.key_results, **named}
 
     @property
     def kind(self) -> str:

@@ -165,8 +165,6 @@ def builds(
 
 def numbers_of_builds(errors: FloatArray) -> FloatArray:
     """Return the numbers of builds from errors of their copies, (n, n_copies, n_instants) to (n, 3)."""
-    if not errors.size:
-        return np.zeros((0, len(NUMBERS)))
     high, low = errors.max(axis=1), errors.min(axis=1)
     sigma = np.sqrt(np.mean(np.var(errors, axis=1), axis=1))
     largest = np.maximum(high.max(axis=1), -low.min(axis=1))
@@ -192,10 +190,9 @@ class Copies:
         """Return the errors of builds of other copies, shape (builds, of_build, n_instants)."""
         size = builds * of_build
         terms = _terms(np.column_stack([law(random, size) for law in self._laws])).astype(np.float32)
-        rest = random.integers(len(self._rest), size=size)
         # The first copies of all builds, then the second: so are numbers of builds found fastest.
         order = np.arange(size).reshape(builds, of_build).T.ravel()
-        errors = self._rest[rest[order]]
+        errors = self._rest[random.integers(len(self._rest), size=size)[order]]
         errors += terms[order] @ self._factors
         return np.asarray(errors.reshape(of_build, builds, -1).swapaxes(0, 1))
 
@@ -324,7 +321,7 @@ class BuildRuns:
             elif one.distribution == "uniform":
                 found.append(lambda random, size: random.uniform(-math.sqrt(3.0), math.sqrt(3.0), size))
             else:
-                found.append(lambda random, size, values=values: random.choice(values, size))
+                found.append(cast(Law, lambda random, size, values=values: random.choice(values, size)))
         return found
 
     def contributions(self, errors: FloatArray) -> dict[str, float]:

@@ -123,9 +123,8 @@ def started(size: int) -> Iterator[list[SweepWorker]]:
 def _prepare(worker: SweepWorker, job: SweepJob) -> None:
     """See whether a worker can work."""
     task = Task(import_what_points_need, ())
-    for _, answer in answers([worker], [task], stop_while_preparing(job)):
-        if answer is LOST:
-            raise TribodynError(UNREADY)
+    if any(answer is LOST for _, answer in answers([worker], [task], stop_while_preparing(job))):
+        raise TribodynError(UNREADY)
 
 
 def answers(

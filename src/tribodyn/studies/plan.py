@@ -3,7 +3,7 @@
 import hashlib
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -115,7 +115,12 @@ def plan_of(case: Case, axes: tuple[Axis, ...], sampling: Sampling = Sampling())
     """Return the plan of all points of these dimensions; returns and raises as :func:`make_plan`."""
     n_points = math.prod(axis.size for axis in axes)
     _check_number(n_points)
-    return SweepPlan(case, axes, _points(case, axes, n_points), sampling)
+    places = enumerate(itertools.product(*(range(axis.size) for axis in axes)), 1)
+    points = (
+        _point(case, [axis.changes(i) for axis, i in zip(axes, at, strict=True)], f"point {k} of {n_points}")
+        for k, at in places
+    )
+    return SweepPlan(case, axes, tuple(points), sampling)
 
 
 def varied_key(case: Case, path: str) -> Key:
@@ -169,26 +174,12 @@ def _drawn(scatters: Sequence[Scatter], sampling: Sampling) -> Axis:
     return Axis(POINT, columns)
 
 
-def _points(case: Case, axes: Sequence[Axis], n_points: int) -> tuple[Point, ...]:
-    places = itertools.product(*(range(axis.size) for axis in axes))
-    return tuple(
-        _point(case, dict(_together(axes, place)), f"point {number} of {n_points}")
-        for number, place in enumerate(places, 1)
-    )
-
-
-def _together(axes: Sequence[Axis], place: Sequence[int]) -> Iterator[tuple[str, str]]:
-    for axis, i in zip(axes, place, strict=True):
-        yield from axis.changes(i).items()
-
-
-def _point(case: Case, changes: dict[str, str], which: str) -> Point:
+def _point(case: Case, along: Sequence[Mapping[str, str]], which: str) -> Point:
+    changes = {path: value for one in along for path, value in one.items()}
     try:
         toml = case.replace(changes, source=SOURCE).to_toml()
     except InputError as error:
-        values = ", ".join(f"{path} = {value}" for path, value in changes.items())
-        raise InputError(
-            f"{error.reason} ({which}: {brief(values, 2 * LONGEST)})", key=error.key, source=SOURCE
-        ) from None
+        label = brief(Point(changes, "", "").label, 2 * LONGEST)
+        raise InputError(f"{error.reason} ({which}: {label})", key=error.key, source=SOURCE) from None
     digest = hashlib.sha256(f"tribodyn {version('tribodyn')}\n{toml}".encode()).hexdigest()
     return Point(changes, toml, digest[:16])

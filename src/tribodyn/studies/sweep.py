@@ -91,18 +91,14 @@ class Means:
     keep_results: bool | None = None
 
 
-def _nothing(_: object) -> None:
-    """Take no notice."""
-
-
 @dataclass(frozen=True)
 class Watcher:
     """Listener to the progress of a sweep, which may end it."""
 
-    arrived: Callable[[Arrival], None] = _nothing  #: Called at the beginning and after every point.
+    arrived: Callable[[Arrival], None] = lambda _: None  #: Called at the beginning and after every point.
     #: Asked several times a second; when true, the sweep ends with the points it has.
     stop: Callable[[], bool] = lambda: False
-    note: Callable[[str], None] = _nothing  #: Called with a line about the work.
+    note: Callable[[str], None] = lambda _: None  #: Called with a line about the work.
 
 
 SILENT: Final = Watcher()  #: A listener that hears nothing and ends nothing.
@@ -165,7 +161,7 @@ def sweep(
     """
     plan = make_plan(case_of(case), vary, Sampling(samples, method, seed))
     means = Means(workers, scheduler, tls, retry)
-    watcher = Watcher(progress or _nothing, stop or Watcher.stop)
+    watcher = Watcher(progress or Watcher.arrived, stop or Watcher.stop)
     return run(plan, None if directory is None else Path(directory), means, watcher)
 
 

@@ -100,14 +100,12 @@ def angle_of(dataset: xr.Dataset, joint: str) -> tuple[str, FloatArray]:
 def _coordinates(dataset: xr.Dataset) -> list[tuple[str, FloatArray]]:
     """Return label and values of the coordinate of each joint: position of a driven slide, or angle."""
     names, angles = dataset["joint"].values, dataset["joint_angle"].values
-    places = dataset["displacement"].values if "displacement" in dataset else None
-    slides = np.nan_to_num(dataset["drive_force"].values).any(axis=0)
-    return [
-        (f"position of {name} [mm]", 1e3 * places[:, k, 2])
-        if places is not None and slides[k]
-        else (f"angle of {name} [°]", np.degrees(angles[:, k]))
-        for k, name in enumerate(names)
-    ]
+    found = [(f"angle of {name} [°]", np.degrees(angles[:, k])) for k, name in enumerate(names)]
+    if "displacement" in dataset:
+        places = dataset["displacement"].values
+        for k in np.flatnonzero(np.nan_to_num(dataset["drive_force"].values).any(axis=0)):
+            found[k] = f"position of {names[k]} [mm]", 1e3 * places[:, k, 2]
+    return found
 
 
 def coordinates(dataset: xr.Dataset, scale: float) -> list[dict[str, Any]]:

@@ -7,8 +7,9 @@ import pytest
 
 from tribodyn.cases import Case
 from tribodyn.cases.case import Group, NamedGroup, demand
-from tribodyn.cases.fields import choice, number, quantity, tables, text
+from tribodyn.cases.fields import Entry, choice, number, quantity, tables, text
 from tribodyn.cases.load import parse
+from tribodyn.cases.tables import empty_tables
 from tribodyn.core.errors import InputError
 
 
@@ -184,3 +185,8 @@ def test_the_order_of_names_is_no_difference() -> None:
 
 def test_empty_tables_outlive_a_change() -> None:
     assert "main-1" in parsed().replace({"gravity": "0 m/s^2"}).joints
+
+
+def test_a_table_is_empty_where_it_or_a_table_in_it_has_keys() -> None:
+    given = {path: Entry({}, "") for path in ("a", "a.b", "a.b.c", "d")} | {"e": Entry({}, "", text=True)}
+    assert empty_tables(given, ["a.b.c.key", "d", "e.key"]) == {"a", "a.b", "a.b.c"}

@@ -107,7 +107,13 @@ def test_what_is_written_is_what_a_person_would_write() -> None:
     assert from_si(2e-5, "um") == "20 um"
     assert from_si(to_si("-16 deg", "deg"), "deg") == "-16 deg"
     assert from_si(203e9, "GPa") == "203 GPa"
-    assert from_si(0.0, "um") == "0 um"
+    assert [from_si(zero, "um") for zero in (0.0, -0.0, 0.0)] == ["0 um", "-0 um", "0 um"]
+
+
+@given(st.integers(1, 10**11 - 1), st.integers(-9, 9), st.sampled_from(sorted({*UNITS} - {*ZEROS})))
+def test_no_digit_is_written_that_nobody_gave(digits: int, power: int, unit: str) -> None:
+    written = from_si(to_si(f"{digits}e{power} {unit}", unit), unit)
+    assert Decimal(written.removesuffix(unit)) == Decimal(f"{digits}e{power}")
 
 
 @pytest.mark.parametrize("unit", UNITS)

@@ -53,6 +53,18 @@ def test_numbers_of_a_build_are_those_of_its_copies() -> None:
     assert found[1].tolist() == [0.0, 0.0, 0.0]
 
 
+def test_draws_are_numbers_of_polynomials_with_what_these_miss() -> None:
+    """Each build has its own copies, in whatever order their errors are found."""
+    inputs = np.random.default_rng(1).standard_normal((200, 2))
+    shares = [lambda random, size: random.standard_normal(size)] * 2
+    copies = Copies(shares, inputs, errors_of(inputs))
+    found = copies.drawn(np.random.default_rng(2), 3, N)
+    random = np.random.default_rng(2)
+    fresh = np.column_stack([law(random, 3 * N) for law in shares])
+    # The errors are a polynomial, so that it misses nothing.
+    assert found == pytest.approx(errors_of(fresh).reshape(3, N, 6), abs=1e-5)
+
+
 @pytest.mark.parametrize(
     ("change", "copies", "limits", "refusal"),
     [

@@ -140,8 +140,7 @@ def led_along(
     """
     follows = not assembly.strain and math.isinf(path.turn) and path.times.size > 1
     pushed = tuple(assembly.model.case.pushed) if follows else ()
-    if pushed and not IdealMechanism(assembly).freedoms:
-        pushed = ()
+    pushed = pushed if pushed and IdealMechanism(assembly).freedoms else ()
     found: dict[tuple[str, ...], list[int]] = {}
     for number, output in enumerate(outputs):
         joints = (output.keys.follows,) if follows and output.keys.follows else pushed
