@@ -15,6 +15,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.results.guides import SITUATIONS
 from tribodyn.mechanism.sections.charts import guides
+from tribodyn.mechanism.sections.joints import orbits
 from tribodyn.mechanisms.results import summarise
 
 #: Lengths of the slider-crank, way from its wrist to the middle of its block, length and play of that [m].
@@ -231,6 +232,10 @@ def test_a_yoke_lags_by_the_play_of_its_slot_and_loses_twice_that_at_each_revers
     assert np.linalg.norm(force, axis=1) == pytest.approx(20.0, rel=1e-3)
     contact = result["guide_contact"].sel(joint="pin").values[moving]
     assert (contact == FACE).all()
+    # Along itself the pin is free: the room between the walls is drawn as far as it goes.
+    result["displacement"].loc[{"joint": "pin", "axis": "x"}] = 3.0 * PLAY
+    ((orbit,), _) = orbits(result)
+    assert np.abs(orbit.corners).max(axis=0) == pytest.approx([1e6 * 3.3 * PLAY, 1e6 * PLAY])
     # The pin turns by 360 degrees against the yoke: no block tilts in its guide.
     assert [panel.label.partition(":")[0] for panel in guides(result)] == ["contact"]
 

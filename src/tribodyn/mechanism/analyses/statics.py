@@ -247,7 +247,10 @@ class Equilibria:
     def _no_rest(self, number: int) -> IntegrationFailure:
         """Return the failure to find rest at a position."""
         self._loads.ideal.at(float(self._path.times[number]))
-        return self._failure(number, "no position at rest was found in which all forces balance")
+        words = (
+            "no position at rest was found in which all forces balance; drives may hold what friction does"
+        )
+        return self._failure(number, words)
 
     def _why_not(self) -> str:
         """Return why the last search ended without an equilibrium, in words."""

@@ -123,13 +123,15 @@ def hodographs(dataset: xr.Dataset) -> Payload | None:
     return choice("lines", f"joint{chosen.which}", parts)
 
 
-def room_of(case: MechanismCase | None, joint: int) -> FloatArray:
+def room_of(case: MechanismCase | None, joint: int, reach: float) -> FloatArray:
     """Return the corners of the room between walls or pads over the clearance, (n, 2); none in a bore."""
     keys = None if case is None else list(case.joints.values())[joint]
     if keys is None or keys.real is None:
         return np.zeros((0, 2))
     shape = SHAPES[keys.shape].of(keys.real, np.asarray)
-    return shape.room() / shape.clearance if isinstance(shape, Cornered) else np.zeros((0, 2))
+    room = shape.room() / shape.clearance if isinstance(shape, Cornered) else np.zeros((0, 2))
+    # A pin is free along itself: the room goes as far as its reach over the clearance.
+    return room * [max(1.1 * reach, 1.0), 1.0] if keys.type == "slot" else room
 
 
 def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
@@ -139,12 +141,11 @@ def orbits(dataset: xr.Dataset) -> tuple[list[Orbit], str]:
         return [], ""
     names, chosen, shafts = _names(dataset), real_joints(dataset), Shafts(dataset, case_of(dataset))
     clearance = 1e6 * dataset["clearance"].values
-    tracks = {
-        j: OrbitPath("shaft", *(1e6 * x[:, :2] for x in (shafts.path(j), shafts.at(j, times))))
-        for j in chosen.joints
-    }
-    corners = {j: (clearance[j] * room_of(shafts.case, j)).tolist() for j in tracks}
-    found = [Orbit(names[j], float(clearance[j]), (tracks[j],), corners[j]) for j in tracks]
+    found = []
+    for j in chosen.joints:
+        path, at = (1e6 * x[:, :2] for x in (shafts.path(j), shafts.at(j, times)))
+        room = clearance[j] * room_of(shafts.case, j, float(np.abs(path[:, 0]).max()) / clearance[j])
+        found.append(Orbit(names[j], float(clearance[j]), (OrbitPath("shaft", path, at),), room.tolist()))
     return found, chosen.which
 
 
