@@ -57,6 +57,9 @@ _SNAPS: Final = (
     "the loop after it"
 )
 _GOES_ON: Final = "and after them shafts walk as with friction.rest: nothing balances along the ideal motion"
+_NO_REST: Final = (
+    "no position at rest was found in which all forces balance; drives may hold what friction does"
+)
 _NO_COSINE: Final = 1.0e-6  #: Least square of the cosine of half a rotation.
 
 
@@ -112,13 +115,15 @@ class Middle:
         Its equations.
     marks
         Whole turns of its angles.
+    rests
+        Whether it was at rest at the last position.
     """
 
     def __init__(self, assembly: Assembly, times: FloatArray) -> None:
         self.linear = Linearised(assemble(assembly.model.counterpart), times)
         self._leader = IdealMechanism(assembly, play=True)
         self.marks = self.linear.system.now.couplings.angle_mark.copy()
-        self._rests = True
+        self.rests = True
 
     def at(self, t: float, ideal: FloatArray, *, anew: bool, must: bool = False) -> FloatArray | None:
         """Return the state at a time of the drives [s], shape (n_bodies, 13).
@@ -134,9 +139,9 @@ class Middle:
         collect(system.now.bodies, state)
         state.reshape(ideal.shape)[:, VELOCITY:] = 0.0
         centred.take_positions(system)
-        balanced = self.linear.balanced(t, state) if self._rests else None
-        self._rests = balanced is not None
-        if must and not self._rests:
+        balanced = self.linear.balanced(t, state) if self.rests else None
+        self.rests = balanced is not None
+        if must and not self.rests:
             return None
         # Where nothing holds a load along a freedom the search has led anywhere, and would again.
         kept, other = (centred, system) if balanced is None else (system, centred)
@@ -247,14 +252,13 @@ class Equilibria:
     def _no_rest(self, number: int) -> IntegrationFailure:
         """Return the failure to find rest at a position."""
         self._loads.ideal.at(float(self._path.times[number]))
-        words = (
-            "no position at rest was found in which all forces balance; drives may hold what friction does"
-        )
-        return self._failure(number, words)
+        return self._failure(number, _NO_REST)
 
     def _why_not(self) -> str:
         """Return why the last search ended without an equilibrium, in words."""
         joints, overlapping, lost = self._model.joints, self._loads.overlapping(), self._loads.lost()
+        if self.middle is not None and not self.middle.rests:
+            return f"with ideal joints, too, {_NO_REST}"
         if lost is not None:
             return (
                 f"the loads move the shaft of joint {joints[lost]} out of its bore; nothing holds it along "

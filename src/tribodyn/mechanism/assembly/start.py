@@ -41,6 +41,7 @@ _MOST_LOOKS: Final = 20
 _PLAIN_LOOKS: Final = 8
 #: Searches in a row without an end before freedoms take part and stiffness is looked for; half of the most.
 _PATIENT: Final = 3
+_HOPELESS: Final = 1.0  #: Load left, over all loads, with which they are enough: nothing is near.
 _MOST_STEPS: Final = 100
 _FEWER_STEPS: Final = 40  #: The same where friction may turn less sharply.
 _SETTLED: Final = 1.0e-3  #: Change of a gap, over the roughness, that counts as zero.
@@ -84,7 +85,8 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
         if steps == 0 or (near and moved < _SAME and look == 0 and not loads.carried):
             return loads.state if loads.overlapping() is None else None
         quiet = moved < near and loads.overlapping() is None
-        if loads.lost() is not None or (near and unended > 2 * _PATIENT):
+        hopeless = near and unended >= _PATIENT and loads.unbalance() > _HOPELESS
+        if loads.lost() is not None or hopeless or (near and unended > 2 * _PATIENT):
             return None
         # Where a force passes through zero its shaft lies anywhere, and no look is the last.
         near *= _NEARER
