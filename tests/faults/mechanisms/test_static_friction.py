@@ -166,6 +166,9 @@ def test_a_search_without_an_end_says_which_body_is_off_balance(monkeypatch) -> 
     result = td.simulate(swinging(13).replace({**STATIC, **FIRST}))
     for words in ("did not converge: loads on body coupler do not balance", "more positions", "dynamic run"):
         assert words in result.attrs["failure"]
+    monkeypatch.setattr(statics.Linearised, "balanced", lambda *place: None)
+    failure = td.simulate(swinging(13).replace({**STATIC, **FIRST})).attrs["failure"]
+    assert "with ideal joints, too, no position at rest was found" in failure
 
 
 def test_a_snap_is_ten_times_as_far_as_before_and_a_tenth_of_the_widest_clearance() -> None:

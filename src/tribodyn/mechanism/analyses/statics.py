@@ -57,9 +57,7 @@ _SNAPS: Final = (
     "the loop after it"
 )
 _GOES_ON: Final = "and after them shafts walk as with friction.rest: nothing balances along the ideal motion"
-_NO_REST: Final = (
-    "no position at rest was found in which all forces balance; drives may hold what friction does"
-)
+_NO_REST: Final = "no position at rest was found where all forces balance; drives may hold what friction does"
 _NO_COSINE: Final = 1.0e-6  #: Least square of the cosine of half a rotation.
 
 

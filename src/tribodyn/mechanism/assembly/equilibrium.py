@@ -146,9 +146,8 @@ class JointLoads:
         """Find the stiffness along all motions that forces do not show, by looking from either side."""
         self.look()
         kept, motions, basis = self.state.copy(), self.motions, np.linalg.solve(self.root, self.motions)
-        m = self.way.size
-        found = np.zeros((m, m))
-        for k in range(m):
+        found = np.zeros((self.way.size,) * 2)
+        for k in range(len(found)):
             found[:, k] -= self._shown(k)
             step = self._small_step(k)
             for side in (1.0, -1.0):
