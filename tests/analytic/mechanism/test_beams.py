@@ -261,6 +261,30 @@ def test_the_bending_part_of_a_levers_error_is_that_of_a_cantilever() -> None:
     assert np.nanmax(found["beam_stress"].values[0]) == pytest.approx(stress, rel=1e-3)
 
 
+def test_a_bent_coupler_between_balls_with_play_rests_where_it_does_without_drives_in_motion() -> None:
+    """A static analysis at 0.01 rpm, without friction, and one of vibrations find the same place."""
+    run = {"cycles": 1, "positions": 2, "analysis": "static"}
+    drawn = td.Mechanism("Four-bar", gravity="0, 0, -9.81 m/s^2", run=run)
+    rod = {"shape": "rod", "radius": "8 mm", "density": "7850 kg/m^3"}
+    drawn.body("crank", start="0, 0, 0 mm", end="0, 40, 0 mm", **rod)
+    tube = {"section": "tube", "radius": "5 mm", "inner_radius": "4 mm", "young_modulus": "70 GPa"}
+    bent = {"points": "0, 40, 0, 100, 60, 30, 200, 0, 120 mm", "density": "2700 kg/m^3", "segments": 6}
+    drawn.body("coupler", elastic="beam", beam=tube | bent)
+    drawn.body("rocker", start="200, 0, 0 mm", end="200, 0, 120 mm", **rod)
+    drawn.revolute("main", "ground", "crank", point="0, 0, 0 mm", axis=[0, 0, 1])
+    drawn.revolute("pivot", "ground", "rocker", point="200, 0, 0 mm", axis=[0, 1, 0])
+    for name, ends, at in (("b1", "crank coupler", "0, 40, 0"), ("b2", "coupler rocker", "200, 0, 120")):
+        drawn.spherical(name, *ends.split(), point=f"{at} mm")
+        drawn.clearance(name, radius="6 mm", radial="20 um", friction_coefficient=0.0)
+    drawn.drive("motor", "main", speed="0.01 rpm")
+    drawn.load("work", "rocker", moment="5 N m", direction=[0, 1, 0])
+    case = drawn.case()
+    found = [td.simulate(case.replace({"run.analysis": one})) for one in ("static", "vibrations")]
+    assert [one.attrs["failure"] for one in found] == ["", ""]
+    places = [one["position"].isel(time=0).values for one in found]
+    assert places[0] == pytest.approx(places[1], abs=1e-7)
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
