@@ -67,8 +67,7 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     A change of gaps below ``change`` over the roughness counts as zero; after one below ``near``, which grows
     from look to look, the possible motions are not looked for again.
     """
-    soft, quiet, unended = 0.0, False, 0
-    floor = _LOW_FLOOR if near and loads.bends else _FLOOR
+    soft, quiet, unended, floor = 0.0, False, 0, _LOW_FLOOR if near and loads.bends else _FLOOR
     for look in range(_MOST_LOOKS):
         if near and (look >= _PLAIN_LOOKS or unended >= _PATIENT):
             loads.survey()
