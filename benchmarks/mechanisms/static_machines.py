@@ -50,6 +50,7 @@ _REASONS: Final = (
     "along a freedom that no joint, drive or spring holds",
     "come closer than the contact law reaches",
     "out of its bore",
+    "with ideal joints, too, no position at rest was found",
     "did not converge",
     "come apart",
 )

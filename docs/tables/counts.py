@@ -94,6 +94,8 @@ def statics(found: Found) -> Lines:
         ("complete static analysis", "complete"),
         ("refused: a freedom that nothing holds", "along a freedom that no joint, drive or spring holds"),
         ("refused: a shaft outside its bore", "out of its bore"),
+        ("refused: no rest in ideal joints either", "with ideal joints, too, no position at rest was found"),
+        ("refused: a search without an end", "did not converge"),
         ("stopped by the benchmark after 2 s of processor time", "interrupted"),
         ("stopped before the first position", STOPPED),
     ):
