@@ -12,16 +12,18 @@ from typing import Final
 
 from mebdf.arrays import FloatArray, IntArray
 from tribodyn.kernels.jit import kernel
-from tribodyn.kernels.lanes import WIDTH, load, spread, store
+from tribodyn.kernels.lanes import WIDTH, load, spread, store, zeros
 from tribodyn.kernels.mechanism.data import COLUMN, N, Pattern
 
 BLOCK: Final = N * COLUMN
 INVERT: Final = 0
 DIVIDE: Final = 1
 SUBTRACT: Final = 2
-#: Operations: replace a block by its inverse; multiply one from the right by another; subtract a product;
-#: replace a symmetric, positive definite block by its inverse.
 INVERT_DEFINITE: Final = 3
+PLACE: Final = 4
+"""Operations: replace a block by its inverse; multiply one from the right by another; subtract a product;
+replace a symmetric, positive definite block by its inverse; write a number along a diagonal from an entry on.
+"""
 
 
 @kernel
@@ -90,6 +92,9 @@ def factorise(pattern: Pattern, blocks: FloatArray) -> int:
         elif kind == INVERT_DEFINITE:
             for k in range(size):
                 _eliminate(blocks, target, k, size)
+        elif kind == PLACE:
+            for k in range(size):
+                blocks[target, steps[s, 3] + k, steps[s, 2] + k] = inner
         else:
             sign *= invert(blocks, target, size, pattern.exchanges)
             if sign == 0:
@@ -143,7 +148,11 @@ def solve(pattern: Pattern, blocks: FloatArray, x: FloatArray) -> None:
 
 @kernel
 def _substitute(steps: IntArray, blocks: FloatArray, x: FloatArray) -> None:
-    """Subtract products of blocks with nodes; a node with itself is multiplied by its inverse."""
+    """Subtract products of blocks with nodes; a node with itself is multiplied by its inverse.
+
+    Where more than six unknowns are named, what the node held before does not count.
+    """
+    nothing = zeros()
     for s in range(steps.shape[0]):
         block, to, node = BLOCK * steps[s, 0], steps[s, 1], x[steps[s, 2]]
         a, b, c = spread(node[0]), spread(node[1]), spread(node[2])
@@ -162,7 +171,9 @@ def _substitute(steps: IntArray, blocks: FloatArray, x: FloatArray) -> None:
             high += b * load(blocks, second + COLUMN)
             high += c * load(blocks, second + 2 * COLUMN)
         first = COLUMN * to
-        if to != steps[s, 2]:
+        if steps[s, 3] > N:
+            low, high = nothing - low, nothing - high
+        elif to != steps[s, 2]:
             low, high = load(x, first) - low, load(x, first + WIDTH) - high
         store(x, first, low)
         store(x, first + WIDTH, high)

@@ -9,7 +9,8 @@ leaves to the root; a loop is closed before the body it hangs on. The nodes of f
 come before all others.
 """
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Final
@@ -17,8 +18,8 @@ from typing import Any, Final
 import numpy as np
 
 from mebdf.arrays import IntArray
-from tribodyn.kernels.mechanism.blocks import DIVIDE, INVERT, INVERT_DEFINITE, SUBTRACT
-from tribodyn.kernels.mechanism.data import NONE, Pattern
+from tribodyn.kernels.mechanism.blocks import DIVIDE, INVERT, INVERT_DEFINITE, PLACE, SUBTRACT
+from tribodyn.kernels.mechanism.data import NONE, N, Pattern
 from tribodyn.kernels.mechanism.newton import N_BODY, N_COMPLIANCE, N_PAIR, N_ROW
 
 
@@ -71,12 +72,23 @@ class _Anchors:
 
 
 def elimination_order(
-    n_nodes: int, n_bodies: int, rows: list[Rows], edges: list[tuple[int, int]]
+    sizes: Sequence[int], n_bodies: int, rows: list[Rows], edges: list[tuple[int, int]]
 ) -> list[int]:
     """Return all nodes in the order of their elimination; bodies are the first, edges pairs with a block.
 
-    Other nodes without constraint rows belong to force laws.
+    Other nodes without constraint rows belong to force laws. Where many nodes are left in the end that are
+    all coupled, those with few of the unknowns ``sizes`` are.
     """
+    order = _order_of(len(sizes), n_bodies, rows, edges, [0] * len(sizes))
+    if _crowd(order, _later(order, [*edges, *((b, a) for a, b in edges)]), n_bodies):
+        return _order_of(len(sizes), n_bodies, rows, edges, sizes)
+    return order
+
+
+def _order_of(
+    n_nodes: int, n_bodies: int, rows: list[Rows], edges: list[tuple[int, int]], sizes: Sequence[int]
+) -> list[int]:
+    """Return the order with minimum degree; of several nodes those with many unknowns come first."""
     neighbours: list[set[int]] = [set() for _ in range(n_nodes)]
     for a, b in edges:
         neighbours[a].add(b)
@@ -85,7 +97,7 @@ def elimination_order(
     anchors, order, left = _Anchors(n_bodies), [], set(range(n_nodes))
     laws = {k for k in left if k >= n_bodies and k not in of_node}
     while left:
-        nearest = sorted(laws & left or left, key=lambda k: (len(neighbours[k]), k < n_bodies, k))
+        nearest = sorted(laws & left or left, key=lambda k: (len(neighbours[k]), k < n_bodies, -sizes[k], k))
         node = next(k for k in nearest if k < n_bodies or k in laws or anchors.allows(of_node[k]))
         order.append(node)
         left.discard(node)
@@ -100,6 +112,76 @@ def elimination_order(
     return order
 
 
+_CROWD: Final = 16  #: Number of nodes, all coupled at the end, from which on their unknowns are packed.
+
+
+class _Operations:
+    """Operations that factorise and solve, as they come up; blocks that fill in join ``block_of``."""
+
+    def __init__(self, block_of: dict[tuple[int, int], int], sizes: Sequence[int]) -> None:
+        self.block_of, self.sizes = block_of, list(sizes)
+        self.factor: list[tuple[int, ...]] = []
+        self.forward: list[tuple[int, ...]] = []
+        self.backward: list[list[tuple[int, ...]]] = []  #: Of each node, the last of which come first.
+        self.changed: set[int] = set()
+
+    def block(self, row: int, column: int) -> int:
+        """Return the number of a block, a new one if it has none."""
+        return self.block_of.setdefault((row, column), len(self.block_of))
+
+    def subtract(self, target: int, left: int, right: int, columns: int, inner: int) -> None:
+        """Subtract the product of two blocks from a third one."""
+        self.changed.add(target)
+        self.factor.append((SUBTRACT, target, left, right, columns, inner))
+
+    def eliminate(self, node: int, later: set[int], below: list[int], kind: int | None) -> None:
+        """Eliminate a node, before the nodes ``later``, of which ``below`` are the same in their order.
+
+        ``kind``: how its block on the diagonal is inverted, where it is.
+        """
+        block, sizes = self.block, self.sizes
+        diagonal, size = block(node, node), sizes[node]
+        if kind is not None:
+            self.factor.append((kind, diagonal, 0, 0, size, size))
+        self.factor.extend((DIVIDE, block(i, node), diagonal, 0, size, size) for i in below)
+        for i, j in itertools.product(below, below):
+            self.subtract(block(i, j), block(i, node), block(node, j), sizes[j], size)
+        self.forward.extend((block(i, node), i, node, size) for i in below)
+        solved = [(block(node, j), node, j, sizes[j]) for j in later]
+        self.backward.append([*solved, (diagonal, node, node, size)])
+
+    def pack(self, groups: list[list[int]]) -> dict[int, int]:
+        """Put the unknowns of each group of nodes into a new node; return the new node of each old one.
+
+        With E, which takes the unknowns of old nodes out of those of new ones, blocks become Eᵀ S E,
+        right-hand sides Eᵀ x, and solutions are E x: products as all others, once the entries of E are there.
+        """
+        given, new, into, out = dict(self.block_of), {}, {}, {}
+        for number, group in enumerate(groups, len(self.sizes)):
+            total = 0
+            for i in group:
+                new[i], size, known = number, self.sizes[i], 0 if total else N
+                into[i], out[i] = self.block(NONE, i), self.block(i, NONE)
+                self.factor.append((PLACE, into[i], total, 0, size, -1))
+                self.factor.append((PLACE, out[i], 0, total, size, -1))
+                self.forward.append((into[i], number, i, known + size))
+                self.backward.append([(out[i], i, number, N + size)])
+                total += size
+            self.sizes.append(total)
+            self.factor.append((PLACE, self.block(number, number), total, total, N - total, 1))
+        halves = {}
+        for (row, column), number in given.items():
+            place = row, new.get(column, column)
+            halves[place] = self.block(*place)
+            if column in new:
+                self.subtract(halves[place], number, out[column], self.sizes[place[1]], self.sizes[column])
+        for (row, column), number in halves.items():
+            if row in new:
+                target = self.block(new[row], column)
+                self.subtract(target, into[row], number, self.sizes[column], self.sizes[row])
+        return new
+
+
 def make_pattern(
     order: list[int], block_of: dict[tuple[int, int], int], sizes: Sequence[int], inverted: int | None = None
 ) -> Pattern:
@@ -108,36 +190,57 @@ def make_pattern(
     This numbers the blocks by row and column, both of each pair. Beyond the unknowns of a node, at most six,
     blocks on the diagonal are unit matrices, others zero. Of the first ``inverted`` nodes, bodies, blocks on
     the diagonal are symmetric and positive definite, and inverses to begin with where nothing is subtracted
-    from them.
+    from them. Where many nodes are left in the end that are all coupled, as the joints are that close the
+    loops of all vanes over one ring, their unknowns are packed into few.
     """
+    steps, n_nodes = _Operations(block_of, sizes), len(sizes)
+    later = _later(order, block_of)
+    new = steps.pack(_groups(_crowd(order, later, inverted or 0), sizes))
+    if new:
+        order = [*(k for k in order if k not in new), *range(n_nodes, len(steps.sizes))]
+        later = _later(order, {(new.get(a, a), new.get(b, b)) for a, b in block_of if {a, b} <= later.keys()})
+    place = {node: i for i, node in enumerate(order)}
+    for node in order:
+        kind: int | None = INVERT
+        if inverted is not None:
+            fixed = node < inverted and steps.block(node, node) not in steps.changed
+            kind = None if fixed else INVERT_DEFINITE
+        steps.eliminate(node, later[node], sorted(later[node], key=place.__getitem__), kind)
+    backward = [step for solved in reversed(steps.backward) for step in solved]
+    lists = _array(steps.factor, 6), _array(steps.forward, 4), _array(backward, 4)
+    return Pattern(*lists, np.zeros(6, dtype=np.int64))
+
+
+def _later(order: list[int], pairs: Iterable[tuple[int, int]]) -> dict[int, set[int]]:
+    """Return the nodes after each one that it is coupled with when it is eliminated."""
     place = {node: i for i, node in enumerate(order)}
     later: dict[int, set[int]] = {node: set() for node in order}
-    for a, b in block_of:
+    for a, b in pairs:
         if place[a] < place[b]:
             later[a].add(b)
-    changed: set[int] = set()
-    factor: list[tuple[int, ...]] = []
-    forward: list[tuple[int, ...]] = []
-    backward: list[tuple[int, ...]] = []
     for node in order:
         below = sorted(later[node], key=place.__getitem__)
-        diagonal, size = block_of[node, node], sizes[node]
-        if inverted is None:
-            factor.append((INVERT, diagonal, 0, 0, size, size))
-        elif node >= inverted or diagonal in changed:
-            factor.append((INVERT_DEFINITE, diagonal, 0, 0, size, size))
-        factor.extend((DIVIDE, block_of[i, node], diagonal, 0, size, size) for i in below)
         for i in below:
-            for j in below:
-                target = block_of.setdefault((i, j), len(block_of))
-                changed.add(target)
-                factor.append((SUBTRACT, target, block_of[i, node], block_of[node, j], sizes[j], size))
             later[i] |= {j for j in below if place[j] > place[i]}
-        forward.extend((block_of[i, node], i, node, size) for i in below)
-    for node in reversed(order):
-        backward.extend((block_of[node, j], node, j, sizes[j]) for j in later[node])
-        backward.append((block_of[node, node], node, node, sizes[node]))
-    return Pattern(_array(factor, 6), _array(forward, 4), _array(backward, 4), np.zeros(6, dtype=np.int64))
+    return later
+
+
+def _crowd(order: list[int], later: dict[int, set[int]], n_bodies: int) -> list[int]:
+    """Return the nodes at the end, but bodies, that are all coupled; none where they are few."""
+    first = len(order)
+    while first > 0 and order[first - 1] >= n_bodies and len(later[order[first - 1]]) == len(order) - first:
+        first -= 1
+    return order[first:] if len(order) - first >= _CROWD else []
+
+
+def _groups(nodes: list[int], sizes: Sequence[int]) -> list[list[int]]:
+    """Return nodes in groups that have up to six unknowns."""
+    groups: list[list[int]] = []
+    for node in nodes:
+        if not groups or sum(sizes[i] for i in (*groups[-1], node)) > N:
+            groups.append([])
+        groups[-1].append(node)
+    return groups
 
 
 def _array(operations: Sequence[tuple[int, ...]], width: int) -> IntArray:
@@ -150,7 +253,13 @@ _KEPT: Final = 8  #: Structures of mechanisms whose patterns are kept.
 
 def n_blocks(pattern: Pattern) -> int:
     """Return the number of blocks that a pattern works on."""
-    return 1 + int(np.max(np.append(pattern.forward[:, 0], pattern.backward[:, 0])))
+    numbers = pattern.factor[:, 1], pattern.forward[:, 0], pattern.backward[:, 0]
+    return 1 + int(np.max(np.concatenate(numbers)))
+
+
+def n_nodes(pattern: Pattern) -> int:
+    """Return the number of nodes, with those into which others are packed."""
+    return 1 + int(np.max(pattern.backward[:, 1]))
 
 
 def patterns(n_bodies: int, couplings: Any) -> tuple[Pattern, Pattern]:
@@ -207,10 +316,10 @@ def _patterns_of(n_bodies: int, structure: bytes) -> tuple[Pattern, Pattern, Int
         for node, bodies in of_node.items()
         if node not in laws
     ]
-    order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
+    order = elimination_order(sizes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
     mass = make_pattern(order, dict(block_of), sizes, n_bodies)
     for k, (_, socket, shaft, *_) in enumerate(couplings):
         if socket < n_bodies and shaft < n_bodies:
             bodies_block[k] = block(socket, shaft), block(shaft, socket)
-    order = elimination_order(n_nodes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
+    order = elimination_order(sizes, n_bodies, rows, [(a, b) for a, b in block_of if a < b])
     return mass, make_pattern(order, dict(block_of), sizes), rows_block, bodies_block

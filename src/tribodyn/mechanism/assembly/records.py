@@ -22,7 +22,7 @@ from tribodyn.kernels.mechanism.data import NONE, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.equations import has_law
 from tribodyn.lubrication import Film, stacked_data, stacked_memory
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
-from tribodyn.mechanism.assembly.ordering import n_blocks, number_entries, patterns
+from tribodyn.mechanism.assembly.ordering import n_blocks, n_nodes, number_entries, patterns
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.element import ForceLaw, Leg
 from tribodyn.mechanism.frames import GROUND, cross, frame
@@ -52,7 +52,7 @@ def mechanism_data(model: Model, worn: FloatArray | None = None, *, contacts: bo
     constants.gravity[:] = model.case.gravity
     constants.n_rows = constants.rank = int(np.sum(couplings.n_rows))
     constants.n_reactive = int(np.sum((couplings.load_of != NONE) | couplings.push.any(axis=1)))
-    constants.n_nodes = max(len(model.bodies), 1 + int(np.max(couplings.node, initial=NONE)))
+    constants.n_nodes = max(n_nodes(mass), n_nodes(newton))
     constants.n_work = -(-(constants.n_nodes + len(model.bodies)) // 6)
     constants.extent = _size(model)
     clearances = tuple(model.clearances.values()) if contacts else ()
