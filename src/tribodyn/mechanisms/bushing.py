@@ -182,26 +182,14 @@ def on_finer_grid(
 ) -> dict[str, float]:
     """Return the errors of a run against a grid four times finer; NaN where the caller wants to stop.
 
-    Parameters
-    ----------
-    joint
-        The joint on the run's grid.
-    data
-        What the kernels of the run read of it, with its wear.
-    rows
-        Columns of the run, of which the attitudes are used.
-    wear
-        Wear depth at the nodes during the run [m], shape (n_z + 2, n_theta); none by default.
-    clearance
-        Of each row [m]; that of the joint by default.
+    They are ``grid_force_error``, the largest error of the contact force on the run's grid at some of its
+    attitudes, without their velocities, over the largest force [1]; and ``pressure_at_rest``, the peak
+    pressure of surfaces at rest where that of the run was largest [Pa]. The finer grid resolves the edge:
+    what the peak of the run has more is damping. Both are 0 without rows.
 
-    Returns
-    -------
-    dict of str to float
-        ``grid_force_error``, the largest error of the contact force on the run's grid at some of its
-        attitudes, without their velocities, over the largest force [1]; and ``pressure_at_rest``, the peak
-        pressure of surfaces at rest where that of the run was largest [Pa]. The finer grid resolves the
-        edge: what the peak of the run has more is damping. Both are 0 without rows.
+    ``joint``: on the run's grid; ``data``: what the kernels of the run read of it, with its wear; ``rows``:
+    columns of the run, of which the attitudes are used; ``wear``: depth at the nodes during the run [m],
+    shape (n_z + 2, n_theta), none by default; ``clearance``: of each row [m], by default that of the joint.
     """
     found = dict.fromkeys(("grid_force_error", "pressure_at_rest"), math.nan)
     if not rows["e_x"].size:

@@ -36,26 +36,11 @@ def errors_at(
 ) -> dict[str, FloatArray]:
     """Return the mean errors at instants by variable of the result, each of shape (n_instants,).
 
-    Of several cycles the first is left out, in which the start dies away.
-
-    Parameters
-    ----------
-    instants
-        Where errors are read.
-    times
-        Rising [s], shape (n_t,).
-    error
-        Of each output by its name, shape (n_t,).
-    drive
-        Returns the coordinate that an instant counts over time [rad or m], shape (n_t,).
-    period
-        Of the cycle [s]; infinite where there is none.
-
-    Returns
-    -------
-    dict
-        NaN where the drive does not pass, or not in that direction; of a drive that passes in one direction
-        only, and of times, what both directions give together.
+    Of several cycles the first is left out, in which the start dies away. They are NaN where the drive does
+    not pass, or not in that direction; of a drive that passes in one direction only, and of times, what both
+    directions give together. ``times``: rising [s], shape (n_t,); ``error``: of each output by its name,
+    shape (n_t,); ``drive``: returns the coordinate that an instant counts over time [rad or m], shape (n_t,);
+    ``period``: of the cycle [s], infinite where there is none.
     """
     found = {name: np.full(len(instants), np.nan) for name in PASSES}
     if times.size < 2:

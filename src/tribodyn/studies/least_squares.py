@@ -103,22 +103,11 @@ def fit(
 ) -> LeastSquares:
     """Fit parameters by least squares, from the best of several starts.
 
-    Parameters
-    ----------
-    residuals
-        From parameters by name to residuals over the uncertainty of the data, shape (m,).
-    parameters
-        What is fitted.
-    starts
-        Number of starts: the middle of the bounds, then points of a Halton sequence.
-    loss
-        ``linear`` for least squares, ``soft_l1`` for a fit that single outliers hardly move.
-    start
-        Values to begin with, instead of the starts.
-    step
-        Step of the differences that give derivatives, relative to the parameters; tiny by default.
-    tolerance
-        Relative change of cost and parameters at which a fit ends.
+    ``residuals``: from parameters by name to residuals over the uncertainty of the data, shape (m,);
+    ``starts``: their number, the middle of the bounds, then points of a Halton sequence; ``loss``: ``linear``
+    for least squares, ``soft_l1`` for a fit that single outliers hardly move; ``start``: values to begin
+    with, instead of the starts; ``step``: of the differences that give derivatives, relative to the
+    parameters, tiny by default; ``tolerance``: relative change of cost and parameters at which a fit ends.
     """
     names = [parameter.name for parameter in parameters]
     bounds = np.array([[parameter.low, parameter.high] for parameter in parameters]).T

@@ -37,19 +37,8 @@ def rounded(value: float, digits: int) -> float:
 def fitting(unit: str, values: Iterable[object]) -> tuple[str, float]:
     """Return the unit in which the largest of some values has one to three digits before the point.
 
-    Parameters
-    ----------
-    unit
-        Of the values, a rate with ``per`` after it perhaps.
-    values
-        Numbers; anything else is passed over.
-
-    Returns
-    -------
-    unit
-        The same where nothing fits better.
-    factor
-        Of a value in it over one in the given unit.
+    With it comes the factor of a value in it over one in the given unit, which may be a rate with ``per``
+    after it, and stays where nothing fits better. Values that are no numbers are passed over.
 
     Examples
     --------

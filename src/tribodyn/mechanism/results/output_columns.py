@@ -102,26 +102,10 @@ def error_growth(
 ) -> FloatArray:
     """Return the growth of the errors of outputs by the wear of their joints, shape (n_t, n_outputs).
 
-    Parameters
-    ----------
-    assembly
-        The mechanism, its joints not worn.
-    outputs
-        At least one.
-    places
-        Of the surfaces of joints with clearance, counted among these.
-    times
-        Rising [s], shape (n_t,).
-    pressure
-        At the nodes [Pa], shape (n_t, n_nodes).
-    depth
-        Worn off at the nodes [m], shape (n_nodes,).
-
-    Returns
-    -------
-    numpy.ndarray
-        In the units of the outputs; NaN for velocities, for lengths of vectors, and from where ideal joints
-        do not close.
+    It is in their units; NaN for velocities, for lengths of vectors, and from where ideal joints do not
+    close. ``assembly``: its joints not worn; ``outputs``: at least one; ``places``: of the surfaces of joints
+    with clearance, counted among these; ``times``: rising [s], shape (n_t,); ``pressure``, and ``depth`` worn
+    off, at the nodes [Pa], shape (n_t, n_nodes), and [m], shape (n_nodes,).
     """
     model, moved = assembly.model, {}
     for number, name in enumerate(model.clearances):

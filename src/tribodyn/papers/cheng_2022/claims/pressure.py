@@ -19,22 +19,9 @@ def contact_arc(
 ) -> tuple[float, float]:
     """Return the beginning and the end of contact, unrolled around ``middle`` [deg].
 
-    Parameters
-    ----------
-    theta
-        Angles of the nodes [rad], evenly around, shape (n_theta,).
-    pressure
-        Largest pressure at each angle [Pa], shape (n_theta,).
-    middle
-        Angle about which the circle is unrolled [deg].
-    share
-        Pressure over its peak at the ends of contact.
-
-    Returns
-    -------
-    tuple
-        First and last angle at which the pressure passes the share of its peak. Between two nodes its
-        logarithm is a straight line, since pressure falls by a factor with each part of σ.
+    They are the first and last angle at which the pressure passes the ``share`` of its peak. Between two
+    nodes its logarithm is a straight line, since pressure falls by a factor with each part of σ. ``theta``:
+    angles of the nodes [rad], evenly around; ``pressure``: the largest at each [Pa]; shapes (n_theta,).
     """
     angle = (np.degrees(theta) - middle + 180.0) % 360.0 - 180.0
     order = np.argsort(angle)

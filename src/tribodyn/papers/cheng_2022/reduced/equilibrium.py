@@ -36,23 +36,10 @@ def equilibrium(
 ) -> FloatArray:
     """Return the attitude (e_x, e_y, φ_x, φ_y) in kinetostatic equilibrium [m, rad], shape (4,).
 
-    Parameters
-    ----------
-    data, memory
-        The mechanism; the memory is left as it was.
-    t
-        Time [s].
-    direction
-        Direction of the ideal vane motion, ±1, for M_air and friction.
-    slip_speed
-        Vane speed that traction sees [rad/s]; fully sliding in ``direction`` by default.
-    guess
-        Attitude to start from; by default the trunnion is laid against the bushing.
-
-    Raises
-    ------
-    InputError
-        If no equilibrium is found: the loads are more than the contact law can carry.
+    Raises InputError if none is found: the loads are more than the contact law can carry. The memory is left
+    as it was. ``direction``: of the ideal vane motion, ±1, for M_air and friction; ``slip_speed``: of the
+    vane that traction sees [rad/s], fully sliding in ``direction`` by default; ``guess``: attitude to start
+    from; by default the trunnion is laid against the bushing.
     """
     half = data.mechanism.half_length
     scale = np.array([1.0, 1.0, 1.0 / half, 1.0 / half])
