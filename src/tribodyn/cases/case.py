@@ -127,7 +127,7 @@ class ParameterKeys(NamedGroup):
     """A number with a name of its own."""
 
     value: float = quantity(
-        None, "its value, or an expression of other parameters", "", unit="mm", example="50 mm", required=True
+        None, "its value, or an expression of other parameters", unit="mm", example="50 mm", required=True
     )
 
 

@@ -34,7 +34,7 @@ class Bounds(TypedDict, total=False):
 def quantity(
     default: str | None,
     description: str,
-    source: str,
+    source: str = "",
     *,
     unit: str | None = None,
     example: str | None = None,
@@ -56,7 +56,7 @@ def quantity(
 def number(
     default: float | None,
     description: str,
-    source: str,
+    source: str = "",
     *,
     example: str = "",
     required: bool = False,
@@ -66,12 +66,14 @@ def number(
     return _field(default, description, source, bounds, kind="number", required=required, example=example)
 
 
-def count(default: int | None, description: str, source: str, *, ge: int, le: int, example: str = "") -> Any:
+def count(
+    default: int | None, description: str, source: str = "", *, ge: int, le: int, example: str = ""
+) -> Any:
     """Declare a key that takes a whole number."""
     return _field(default, description, source, {"ge": ge, "le": le}, kind="count", example=example)
 
 
-def switch(default: bool | None, description: str, source: str, *, example: str = "") -> Any:
+def switch(default: bool | None, description: str, source: str = "", *, example: str = "") -> Any:
     """Declare a key that is true or false."""
     return _field(default, description, source, kind="switch", example=example)
 
@@ -79,7 +81,7 @@ def switch(default: bool | None, description: str, source: str, *, example: str 
 def vector(
     default: str | None,
     description: str,
-    source: str,
+    source: str = "",
     *,
     unit: str = "",
     example: str = "",
@@ -97,12 +99,12 @@ def vector(
     )
 
 
-def series(description: str, source: str, *, unit: str = "", example: str) -> Any:
+def series(description: str, source: str = "", *, unit: str = "", example: str) -> Any:
     """Declare a key that takes any number of numbers, with a unit each, or bare; none by default."""
     return _field(None, description, source, kind="series", unit=unit, example=example)
 
 
-def names(description: str, source: str, *, length: int, example: str, required: bool = True) -> Any:
+def names(description: str, source: str = "", *, length: int, example: str, required: bool = True) -> Any:
     """Declare a key that takes that many names, 0 for any number; without them it is empty."""
     more: dict[str, Any] = {"example": example, "length": length}
     return _field(None, description, source, kind="names", required=required, **more)
@@ -116,7 +118,7 @@ def _numbers(texts: str, unit: str) -> tuple[float, ...]:
 def choice(
     default: str | None,
     description: str,
-    source: str,
+    source: str = "",
     *,
     family: str = "",
     example: str = "",
@@ -134,7 +136,9 @@ def choice(
     )
 
 
-def name(default: str | None, description: str, source: str, *, example: str, required: bool = False) -> Any:
+def name(
+    default: str | None, description: str, source: str = "", *, example: str, required: bool = False
+) -> Any:
     """Declare a key that takes the name of a table that the user named."""
     return _field(default, description, source, kind="name", required=required, example=example)
 

@@ -24,7 +24,7 @@ _MOST_OUTPUT_TIMES = 2_000_000
 
 def _loss_factor() -> Any:
     words = "tan delta of the body under the asperities; it loses none without it"
-    return number(None, words, "", ge=0, le=1, example="0.005")
+    return number(None, words, ge=0, le=1, example="0.005")
 
 
 class Trunnion(Group):
@@ -33,7 +33,6 @@ class Trunnion(Group):
     material: str | None = choice(
         None,
         "of the library; keys beside it go before what it gives",
-        "",
         family="tribodyn.cases.materials:MATERIALS",
         example="steel-17-4ph",
     )
@@ -43,16 +42,15 @@ class Trunnion(Group):
         "0.392 um", "root mean square roughness sigma_1; Ra or Rz as well", TABLE_1, ge=0, profile=True
     )
     thermal_expansion: float | None = quantity(
-        None, "linear; needed with temperature.trunnion", "", ge=0, example="11e-6 1/K"
+        None, "linear; needed with temperature.trunnion", ge=0, example="11e-6 1/K"
     )
     conductivity: float | None = quantity(
         None,
         "of heat; of both surfaces, with the diffusivity, for a flash temperature",
-        "",
         gt=0,
         example="16 W/(m K)",
     )
-    diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="4 mm^2/s")
+    diffusivity: float | None = quantity(None, "of heat, k/(rho c)", gt=0, example="4 mm^2/s")
     loss_factor: float | None = _loss_factor()
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
 
@@ -63,7 +61,6 @@ class Bushing(Group):
     material: str | None = choice(
         None,
         "of the library; keys beside it go before what it gives",
-        "",
         family="tribodyn.cases.materials:MATERIALS",
         example="bronze-c93200",
     )
@@ -74,16 +71,15 @@ class Bushing(Group):
     )
     hardness: float = quantity("492 MPa", "hardness H", TABLE_1, gt=0)
     thermal_expansion: float | None = quantity(
-        None, "linear; needed with temperature.bushing", "", ge=0, example="50e-6 1/K"
+        None, "linear; needed with temperature.bushing", ge=0, example="50e-6 1/K"
     )
     conductivity: float | None = quantity(
         None,
         "of heat; of both surfaces, with the diffusivity, for a flash temperature",
-        "",
         gt=0,
         example="0.35 W/(m K)",
     )
-    diffusivity: float | None = quantity(None, "of heat, k/(rho c)", "", gt=0, example="0.2 mm^2/s")
+    diffusivity: float | None = quantity(None, "of heat, k/(rho c)", gt=0, example="0.2 mm^2/s")
     loss_factor: float | None = _loss_factor()
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")
 
@@ -141,16 +137,16 @@ class AsperityKeys(Group):
     origin: str = text("", "where these and the roughness come from, if not from the paper")
     surface: str | None = file("scan that gives these and the roughness, instead of them", "scan.csv")
     level: str | None = choice(
-        None, "what is taken off a scan", "", family="tribodyn.surfaces:LEVELS", example="plane"
+        None, "what is taken off a scan", family="tribodyn.surfaces:LEVELS", example="plane"
     )
     filter: str | None = choice(
-        None, "filter of the cut-offs", "", family="tribodyn.surfaces:FILTERS", example="gaussian"
+        None, "filter of the cut-offs", family="tribodyn.surfaces:FILTERS", example="gaussian"
     )
     short_cutoff: float | None = quantity(
-        None, "shortest wavelength kept of a scan; all without it", "", gt=0, example="2.5 um"
+        None, "shortest wavelength kept of a scan; all without it", gt=0, example="2.5 um"
     )
     long_cutoff: float | None = quantity(
-        None, "longest wavelength kept of a scan; all without it", "", gt=0, example="0.8 mm"
+        None, "longest wavelength kept of a scan; all without it", gt=0, example="0.8 mm"
     )
 
 
@@ -317,10 +313,10 @@ class GridKeys(Group):
     """Quadrature points over each surface of a clearance; by default as many as resolve its contact."""
 
     theta: int | None = count(
-        None, "points around; by default by clearance over roughness", "", ge=12, le=4096, example="96"
+        None, "points around; by default by clearance over roughness", ge=12, le=4096, example="96"
     )
     z: int | None = count(
-        None, "Gauss points along; by default by clearance over roughness", "", ge=2, le=256, example="16"
+        None, "Gauss points along; by default by clearance over roughness", ge=2, le=256, example="16"
     )
 
     def resolved(self, clearance: float, roughness: float) -> tuple[int, int]:

@@ -147,7 +147,6 @@ class PlainJoint(Group):
         None,
         "what yields under the asperities: shaft and bushing, or nothing; without it nothing, or both where "
         "asperities do not carry",
-        "",
         example="conformal",
     )
     liner: LinerKeys = LinerKeys()
@@ -237,12 +236,10 @@ class SurfaceWear(Group):
     )
     scatter: Numbers | None = series(
         "least and largest wear of equal parts over that at the rate; by default those of the material",
-        "",
         example="[0.5, 2]",
     )
     repeats: Numbers | None = series(
         "measured wear of equal parts in equal tests, in any one unit; the scatter follows from it",
-        "",
         example="[1.2, 0.9, 2.1]",
     )
     final_roughness: float | None = quantity(

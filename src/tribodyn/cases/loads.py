@@ -38,7 +38,7 @@ class BodyLoad(NamedGroup):
     moment_y: TorqueMap | None = None
     moment_z: TorqueMap | None = None
     direction: Vector | None = vector(
-        None, "of force and moment; against the motion: only along it", "", example="[-1, 0, 0]"
+        None, "of force and moment; against the motion: only along it", example="[-1, 0, 0]"
     )
     frame: Literal["ground", "body", "motion"] = choice(
         "ground", "fixed in space, fixed in the body (follower), or opposing the motion", "assumed"

@@ -30,24 +30,24 @@ _TURN: Final = 2.0 * math.pi * (1.0 - 1.0e-9)
 
 
 def _value(example: str) -> Any:
-    return quantity(None, "constant, or where it begins", "", example=example)
+    return quantity(None, "constant, or where it begins", example=example)
 
 
 def _amplitude(example: str) -> Any:
-    return quantity(None, "of a sinusoid about value", "", example=example)
+    return quantity(None, "of a sinusoid about value", example=example)
 
 
 def _swing(example: str) -> Any:
-    return quantity(None, "from value there and back", "", example=example)
+    return quantity(None, "from value there and back", example=example)
 
 
 def _pulse(example: str) -> Any:
-    return quantity(None, "largest value of one squared sine above value", "", example=example)
+    return quantity(None, "largest value of one squared sine above value", example=example)
 
 
 def _values(example: str) -> Any:
     unit = unit_of(example.rpartition(", ")[2])
-    return series("in the place of a CSV file", "", unit=unit, example=f'"{example}"')
+    return series("in the place of a CSV file", unit=unit, example=f'"{example}"')
 
 
 class _Angle(Group):
@@ -98,11 +98,9 @@ class _TableRows(NamedGroup):
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = tuple(itertools.product((TABLE,), (VALUES, *KNOTS)))
 
     table: str | None = file("CSV file: time, angle or position, then values", "table.csv")
-    column: str | None = name(
-        None, "which of its columns, by name; the second without it", "", example="force"
-    )
+    column: str | None = name(None, "which of its columns, by name; the second without it", example="force")
     interpolation: Literal["cubic", "linear", "smooth"] | None = choice(
-        None, "between the rows of a table, or near those of a noisy one; cubic without", "", example="linear"
+        None, "between the rows of a table, or near those of a noisy one; cubic without", example="linear"
     )
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
@@ -170,7 +168,7 @@ def _curve(knots: Numbers, values: Numbers, smooth: bool, closed: bool) -> Signa
 class _Timed(_TableRows):
     """A table over time."""
 
-    times: Numbers | None = series("times of the values", "", unit="s", example='"0, 0.5, 1 s"')
+    times: Numbers | None = series("times of the values", unit="s", example='"0, 0.5, 1 s"')
 
 
 class AngleTable(_Timed):
@@ -200,7 +198,7 @@ class TemperatureTable(_Timed):
 class ProfileTable(_TableRows):
     """A deviation of a radius over a position."""
 
-    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"-10, 0, 10 mm"')
+    positions: Numbers | None = series("positions of the values", unit="mm", example='"-10, 0, 10 mm"')
     values: Numbers | None = _values("0, 3, 0 um")
 
 
@@ -212,8 +210,8 @@ class BoreMap(NamedGroup):
     )
 
     map: str | None = file("CSV file: an angle down, positions across; or the other way round", "bore.csv")
-    angles: Numbers | None = series("angles of the values", "", unit="deg", example='"0, 90, 180, 270 deg"')
-    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"-10, 10 mm"')
+    angles: Numbers | None = series("angles of the values", unit="deg", example='"0, 90, 180, 270 deg"')
+    positions: Numbers | None = series("positions of the values", unit="mm", example='"-10, 10 mm"')
     values: Numbers | None = _values("0, 3, 0 um")
 
     def model_post_init(self, context: object, /) -> None:
@@ -231,7 +229,7 @@ class BoreMap(NamedGroup):
 class LineLoadTable(_TableRows):
     """A load per length over a position."""
 
-    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"0, 10, 20 mm"')
+    positions: Numbers | None = series("positions of the values", unit="mm", example='"0, 10, 20 mm"')
     values: Numbers | None = _values("100, 200, 150 N/m")
 
 
@@ -246,14 +244,14 @@ class _Signal(_Timed):
     )
 
     angular_frequency: float | None = quantity(
-        None, "of amplitude or swing", "", unit="rad/s", gt=0, example="1 rad/s"
+        None, "of amplitude or swing", unit="rad/s", gt=0, example="1 rad/s"
     )
-    phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", "", example="90 deg")
-    cyclic: bool | None = switch(None, "whether a table over time is repeated", "", example="true")
-    angles: Numbers | None = series("angles of the values", "", unit="deg", example='"0, 90, 360 deg"')
-    positions: Numbers | None = series("positions of the values", "", unit="mm", example='"0, 10, 20 mm"')
-    speeds: Numbers | None = series("speeds of the values", "", unit="rad/s", example='"0, 10, 20 rad/s"')
-    velocities: Numbers | None = series("velocities of the values", "", unit="m/s", example='"0, 1, 2 m/s"')
+    phase: float | None = quantity(None, "of a sinusoid at the start; 0 without", example="90 deg")
+    cyclic: bool | None = switch(None, "whether a table over time is repeated", example="true")
+    angles: Numbers | None = series("angles of the values", unit="deg", example='"0, 90, 360 deg"')
+    positions: Numbers | None = series("positions of the values", unit="mm", example='"0, 10, 20 mm"')
+    speeds: Numbers | None = series("speeds of the values", unit="rad/s", example='"0, 10, 20 rad/s"')
+    velocities: Numbers | None = series("velocities of the values", unit="m/s", example='"0, 1, 2 m/s"')
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
         value: float | None
@@ -337,13 +335,12 @@ class _Mapped(_Signal):
     order: float | None = number(
         None,
         "waves in a turn of a shaft, such as its number of blades: frequency of amplitude or swing",
-        "",
         gt=0,
         example="36",
     )
-    shaft_speed: float | None = quantity(None, "of that shaft", "", gt=0, example="12000 rpm")
-    begin: float | None = quantity(None, "of a pulse; 0 s without", "", ge=0, example="20 ms")
-    length: float | None = quantity(None, "of a pulse", "", gt=0, example="50 ms")
+    shaft_speed: float | None = quantity(None, "of that shaft", gt=0, example="12000 rpm")
+    begin: float | None = quantity(None, "of a pulse; 0 s without", ge=0, example="20 ms")
+    length: float | None = quantity(None, "of a pulse", gt=0, example="50 ms")
 
     if TYPE_CHECKING:  # What the groups of quantities declare.
         pulse: float | None

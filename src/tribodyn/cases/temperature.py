@@ -63,17 +63,17 @@ class PropertiesKeys(Group):
     """The bushing's material over the temperature; linear between rows; keys that are given go first."""
 
     temperatures: Numbers | None = series(
-        "at which the others are given", "", unit="degC", example='"20, 200, 400 degC"'
+        "at which the others are given", unit="degC", example='"20, 200, 400 degC"'
     )
     young_modulus: Numbers | None = series(
-        "Young's modulus of the bushing", "", unit="GPa", example='"3.2, 2.4, 1.6 GPa"'
+        "Young's modulus of the bushing", unit="GPa", example='"3.2, 2.4, 1.6 GPa"'
     )
     hardness: Numbers | None = series(
-        "hardness at these temperatures", "", unit="MPa", example='"300, 220, 140 MPa"'
+        "hardness at these temperatures", unit="MPa", example='"300, 220, 140 MPa"'
     )
-    friction_coefficient: Numbers | None = series("of the joint", "", example="[0.3, 0.2, 0.15]")
+    friction_coefficient: Numbers | None = series("of the joint", example="[0.3, 0.2, 0.15]")
     specific_wear_rate: Numbers | None = series(
-        "of the bushing", "", unit="m^2/N", example='"1e-15, 2e-15, 5e-15 m^2/N"'
+        "of the bushing", unit="m^2/N", example='"1e-15, 2e-15, 5e-15 m^2/N"'
     )
 
     def values_at(self, first: float, second: float) -> dict[str, tuple[float, float]]:
@@ -124,16 +124,16 @@ class Temperature(Group):
     """Temperatures of assembly and of the run, constant or over time."""
 
     assembly: float = quantity("20 degC", "at which clearance and radius are given", ASSUMED, gt=0)
-    trunnion: float | None = quantity(None, "of the trunnion in the run", "", gt=0, example="300 degC")
-    bushing: float | None = quantity(None, "of the bushing in the run", "", gt=0, example="300 degC")
+    trunnion: float | None = quantity(None, "of the trunnion in the run", gt=0, example="300 degC")
+    bushing: float | None = quantity(None, "of the bushing in the run", gt=0, example="300 degC")
     casing: float | None = quantity(
-        None, "of what the bushing is bonded into, in the run", "", gt=0, example="250 degC"
+        None, "of what the bushing is bonded into, in the run", gt=0, example="250 degC"
     )
     fit: Literal["free", "bonded"] = choice(
         "free", "a bushing that expands freely, or a sleeve bonded into a casing", ASSUMED
     )
     casing_expansion: float | None = quantity(
-        None, "thermal expansion of the casing", "", ge=0, example="11e-6 1/K"
+        None, "thermal expansion of the casing", ge=0, example="11e-6 1/K"
     )
     properties: PropertiesKeys = PropertiesKeys()
     over_time: OverTime = OverTime()

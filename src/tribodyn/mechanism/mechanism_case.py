@@ -66,7 +66,7 @@ def _tables_of(values: Iterable[str]) -> set[str]:
 class _Parts(RoughCase):
     """The parts of a mechanism that are no elements."""
 
-    case: Literal["mechanism"] = choice("mechanism", "the kind of system", "")
+    case: Literal["mechanism"] = choice("mechanism", "the kind of system")
     title: str = text("Mechanism", "heading of figures and report")
     friction_coefficient: float = friction_of("all joints without a pair")
     gravity: Vector = vector(

@@ -33,7 +33,7 @@ class RunKeys(Group):
         None, "simulated time; give this or cycles", ASSUMED, gt=0, example="0.5 s"
     )
     period: float | None = quantity(
-        None, "time of one cycle; that of the first drive that has one without it", "", gt=0, example="12 ms"
+        None, "time of one cycle; that of the first drive that has one without it", gt=0, example="12 ms"
     )
     start: Literal["equilibrium", "centred"] = choice(
         "equilibrium", "where shafts are in their sockets at the start", "manual, any mechanism"
@@ -41,7 +41,6 @@ class RunKeys(Group):
     output_interval: float | None = quantity(
         None,
         f"time between rows of the result; a {ROWS}th of the run or cycle without it",
-        "",
         gt=0,
         example="0.1 ms",
     )
@@ -74,7 +73,6 @@ class ResultKeys(Group):
     quantities: tuple[str, ...] | None = names(
         "quantities of bodies and joints that the result holds over time; of up to "
         f"{SMALL} joints all, of more those of key results, figures and report",
-        "",
         length=0,
         example='["position", "orientation", "reaction_force"]',
         required=False,
@@ -82,7 +80,6 @@ class ResultKeys(Group):
     frames: int | None = count(
         None,
         f"pressure fields of a cycle; {EVEN} for up to {SMALL} joints, {FEW_FRAMES} for more",
-        "",
         ge=2,
         le=10_000,
         example=str(EVEN),

@@ -23,10 +23,10 @@ class InstantKeys(Group):
     """Place at which the error of an output is read."""
 
     angles: Numbers | None = series(
-        "angles of the drive at which the error is read", "", unit=ANGLE_UNIT, example='["30 deg", "90 deg"]'
+        "angles of the drive at which the error is read", unit=ANGLE_UNIT, example='["30 deg", "90 deg"]'
     )
     times: Numbers | None = series(
-        "times in each cycle at which the error is read", "", unit="s", example='["0.1 s", "0.25 s"]'
+        "times in each cycle at which the error is read", unit="s", example='["0.1 s", "0.25 s"]'
     )
 
     @property

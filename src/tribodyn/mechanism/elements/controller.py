@@ -68,26 +68,22 @@ sampling_time = "5 ms"
     position: PositionSignal | None = None
     velocity: VelocitySignal | None = None
     angle_gain: float | None = quantity(
-        None,
-        "gain K of the angle; without a gain a Python function takes its place",
-        "",
-        example="20 N m/rad",
+        None, "gain K of the angle; without a gain a Python function takes its place", example="20 N m/rad"
     )
-    speed_gain: float | None = quantity(None, "gain K of the speed", "", example="0.5 N m s/rad")
-    position_gain: float | None = quantity(None, "gain K of the position", "", example="20 N/mm")
-    velocity_gain: float | None = quantity(None, "gain K of the velocity", "", example="50 N s/m")
+    speed_gain: float | None = quantity(None, "gain K of the speed", example="0.5 N m s/rad")
+    position_gain: float | None = quantity(None, "gain K of the position", example="20 N/mm")
+    velocity_gain: float | None = quantity(None, "gain K of the velocity", example="50 N s/m")
     integral_time: float | None = quantity(
-        None, "T_i, of the integral part; no such part without it", "", gt=0, example="50 ms"
+        None, "T_i, of the integral part; no such part without it", gt=0, example="50 ms"
     )
     derivative_time: float = quantity("0 s", "T_d, of the derivative part", "assumed", ge=0, example="10 ms")
     torque_limit: float | None = quantity(
-        None, "largest torque in both directions", "", unit="N m", gt=0, example="5 N m"
+        None, "largest torque in both directions", unit="N m", gt=0, example="5 N m"
     )
-    force_limit: float | None = quantity(None, "likewise of a force", "", unit="N", gt=0, example="200 N")
+    force_limit: float | None = quantity(None, "likewise of a force", unit="N", gt=0, example="200 N")
     sampling_time: float = quantity(
         None,
         "T, from one measurement to the next, the first at the start",
-        "",
         gt=0,
         example="1 ms",
         required=True,

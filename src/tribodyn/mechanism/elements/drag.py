@@ -44,10 +44,10 @@ joint = "input"
 torque = "0.2 N m"
 """  # noqa: E501 (an inline table of TOML is one line)
 
-    body: str = name(None, "body that it acts on", "", example="arm", required=True)
-    point: Vector = vector(None, "centre of pressure", "", unit="mm", example=POINT, required=True)
-    drag_coefficient: float = number(None, "drag coefficient c_d", "", ge=0, example="1.2", required=True)
-    area: float = quantity(None, "reference area", "", unit="cm^2", gt=0, example="200 cm^2", required=True)
+    body: str = name(None, "body that it acts on", example="arm", required=True)
+    point: Vector = vector(None, "centre of pressure", unit="mm", example=POINT, required=True)
+    drag_coefficient: float = number(None, "drag coefficient c_d", ge=0, example="1.2", required=True)
+    area: float = quantity(None, "reference area", unit="cm^2", gt=0, example="200 cm^2", required=True)
     density: float = quantity("1.2 kg/m^3", "density of the air, at 20 degC and 1 bar", "assumed", gt=0)
 
     def legs(self, joints: base.Joints) -> tuple[base.Leg, ...]:

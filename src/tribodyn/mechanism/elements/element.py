@@ -181,15 +181,15 @@ class ElementKeys(NamedGroup):
 class PointsKeys(ElementKeys):
     """Base of the keys of an element between two points."""
 
-    between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "rod"]')
+    between: tuple[str, str] = names("the two bodies, or ground", length=2, example='["ground", "rod"]')
     first_point: Vector = vector(
-        None, "position of its end on the first body", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the first body", unit="mm", example=POINT, required=True
     )
     second_point: Vector = vector(
-        None, "position of its end on the second body", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the second body", unit="mm", example=POINT, required=True
     )
     length: float | None = quantity(
-        None, "its length without force; by default the distance of its ends", "", ge=0, example="80 mm"
+        None, "its length without force; by default the distance of its ends", ge=0, example="80 mm"
     )
 
     def legs(self, joints: Joints) -> tuple[Leg, ...]:
@@ -209,7 +209,7 @@ class PointsKeys(ElementKeys):
 class OfJointKeys(ElementKeys):
     """Base of the keys of an element at the coordinate of one joint: of its second body against the first."""
 
-    joint: str = name(None, "the joint it acts in", "", example="hinge", required=True)
+    joint: str = name(None, "the joint it acts in", example="hinge", required=True)
 
     def leg_of(self, joints: Joints, coordinate: str, member: str, scale: float = 1.0) -> Leg:
         """Return the leg of an angle, times a scale, or of a position, as drawn zero."""

@@ -68,14 +68,12 @@ torque = "0.2 N m"
 
     joints: tuple[str, str] = names(
         "the bearings of the two wheels in the body that carries both",
-        "",
         length=2,
         example='["input", "output"]',
     )
     ratio: float = number(
         None,
         "turns of the second wheel for one of the first, seen from the carrier; negative for external gears",
-        "",
         example="-2.5",
         required=True,
     )
@@ -83,22 +81,16 @@ torque = "0.2 N m"
     pressure_angle: float | None = quantity(
         None,
         "pressure angle, by which teeth push the wheels apart; without it 20 deg with backlash, else none",
-        "",
         ge=0,
         lt="60 deg",
         example="20 deg",
     )
 
     friction_coefficient: float | None = number(
-        None,
-        "of a worm, which is the first wheel, instead of both efficiencies",
-        "",
-        gt=0,
-        le=2,
-        example="0.05",
+        None, "of a worm, which is the first wheel, instead of both efficiencies", gt=0, le=2, example="0.05"
     )
     lead_angle: float | None = quantity(
-        None, "lead angle of a worm; needed with its friction", "", gt=0, lt="90 deg", example="10 deg"
+        None, "lead angle of a worm; needed with its friction", gt=0, lt="90 deg", example="10 deg"
     )
 
     @property
@@ -231,13 +223,12 @@ torque = "0.2 N m"
 """
 
     joints: tuple[str, str] = names(
-        "the bearing of the pinion and the guide of the rack", "", length=2, example='["pinion", "guide"]'
+        "the bearing of the pinion and the guide of the rack", length=2, example='["pinion", "guide"]'
     )
     radius: float = quantity(
         None,
         "pitch radius: displacement of the rack along its axis for 1 rad of the pinion about its own; "
         "negative where the rack is on the other side",
-        "",
         unit="mm",
         example="20 mm",
         required=True,

@@ -105,21 +105,19 @@ viscous = "5 N s/m"
     normal_load: float | None = quantity(
         None,
         "load N on the sliding surfaces; the reaction of the joint across its axis without it",
-        "",
         ge=0,
         example="40 N",
     )
     radius: float | None = quantity(
-        None, "radius at which a turning joint slides; a sliding joint has none", "", gt=0, example="10 mm"
+        None, "radius at which a turning joint slides; a sliding joint has none", gt=0, example="10 mm"
     )
     friction_coefficient: float = number(0.1, "of sliding, mu", "assumed", ge=0, le=2)
     static_coefficient: float | None = number(
-        None, "of breakaway, mu_s; that of sliding without it", "", ge=0, le=2, example="0.15"
+        None, "of breakaway, mu_s; that of sliding without it", ge=0, le=2, example="0.15"
     )
     backward_coefficient: float | None = number(
         None,
         "of sliding where the coordinate falls; that of friction_coefficient without it",
-        "",
         ge=0,
         le=2,
         example="0.12",

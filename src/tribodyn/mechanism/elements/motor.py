@@ -49,17 +49,17 @@ torque = { speeds = "-100, 0, 100, 200 rad/s", values = "3, 2, 1.2, 0 N m" }
     )
 
     stall_torque: float | None = quantity(
-        None, "torque at rest, on a straight line to the no-load speed", "", unit="N m", example="2 N m"
+        None, "torque at rest, on a straight line to the no-load speed", unit="N m", example="2 N m"
     )
     no_load_speed: float | None = quantity(
-        None, "speed without torque, of the same sign", "", unit="rad/s", example="3000 rpm"
+        None, "speed without torque, of the same sign", unit="rad/s", example="3000 rpm"
     )
     torque: TorqueSignal | None = None
     stall_force: float | None = quantity(
-        None, "force at rest, on a straight line to the no-load velocity", "", unit="N", example="200 N"
+        None, "force at rest, on a straight line to the no-load velocity", unit="N", example="200 N"
     )
     no_load_velocity: float | None = quantity(
-        None, "velocity without force, of the same sign", "", unit="m/s", example="0.5 m/s"
+        None, "velocity without force, of the same sign", unit="m/s", example="0.5 m/s"
     )
     force: ForceSignal | None = None
 

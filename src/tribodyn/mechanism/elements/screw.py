@@ -57,14 +57,12 @@ torque = "0.2 N m"
 
     joints: tuple[str, ...] = names(
         "the cylindrical joint of the thread; or the bearing of the screw and the guide of the nut",
-        "",
         length=0,
         example='["bearing", "guide"]',
     )
     lead: float = quantity(
         None,
         "displacement along the axis for one turn; positive for a right-handed thread",
-        "",
         unit="mm",
         example="4 mm",
         required=True,
@@ -79,20 +77,19 @@ torque = "0.2 N m"
     backward_coefficient: float | None = number(
         None,
         "likewise where the load turns the screw; that of friction_coefficient without it",
-        "",
         ge=0,
         le=2,
         example="0.12",
     )
     radius: float | None = quantity(
-        None, "mean radius of the thread, at which it slides; needed with friction", "", gt=0, example="8 mm"
+        None, "mean radius of the thread, at which it slides; needed with friction", gt=0, example="8 mm"
     )
     slip_velocity: float = quantity("1 mm/s", "speed at which friction is developed, u_s", "assumed", gt=0)
     backlash: float | None = quantity(
-        None, "play of the nut along the axis; none without it", "", ge=0, example="50 um"
+        None, "play of the nut along the axis; none without it", ge=0, example="50 um"
     )
     stiffness: float | None = quantity(
-        None, "axial force over indentation, of a thread with backlash", "", gt=0, example="100 N/um"
+        None, "axial force over indentation, of a thread with backlash", gt=0, example="100 N/um"
     )
 
     @property

@@ -83,17 +83,17 @@ restitution = 0.6
     )
 
     angle: float | None = quantity(
-        None, "angle at which it begins; zero in the model", "", unit="deg", example="60 deg"
+        None, "angle at which it begins; zero in the model", unit="deg", example="60 deg"
     )
     position: float | None = quantity(
-        None, "position along the axis at which it begins", "", unit="mm", example="20 mm"
+        None, "position along the axis at which it begins", unit="mm", example="20 mm"
     )
     side: Literal["above", "below"] = choice("above", "side of the joint values that it blocks", "assumed")
     stiffness: float | None = quantity(
-        None, "force over indentation, of a stop of a position", "", gt=0, example="1000 N/mm"
+        None, "force over indentation, of a stop of a position", gt=0, example="1000 N/mm"
     )
     angular_stiffness: float | None = quantity(
-        None, "torque over indentation, of a stop of an angle", "", gt=0, example="100 N m/rad"
+        None, "torque over indentation, of a stop of an angle", gt=0, example="100 N m/rad"
     )
     exponent: float = number(1.0, "n, of the indentation", "assumed", ge=1, le=4)
     depth: float = number(

@@ -27,7 +27,7 @@ from tribodyn.mechanism.elements.stop import LEAST_RATE, RESTITUTION, damping_of
 class Flanks(ElementKeys):
     """Base of the keys of elements whose flanks may have backlash."""
 
-    backlash: float | None = quantity(None, "play of the flanks; none without it", "", ge=0, example="0.1 mm")
+    backlash: float | None = quantity(None, "play of the flanks; none without it", ge=0, example="0.1 mm")
     damping_factor: str = choice(
         "calibrated",
         "how damping of flanks with backlash follows from restitution",
@@ -72,15 +72,14 @@ class Teeth(Flanks):
     """Base of the keys of elements with teeth, whose first leg is that of the wheel which drives forward."""
 
     backlash: float | None = quantity(
-        None, "play j of the teeth along the pitch circles; none without it", "", ge=0, example="0.1 mm"
+        None, "play j of the teeth along the pitch circles; none without it", ge=0, example="0.1 mm"
     )
     mesh_stiffness: float | None = quantity(
-        None, "tooth force over indentation, of teeth with backlash", "", gt=0, example="100 N/um"
+        None, "tooth force over indentation, of teeth with backlash", gt=0, example="100 N/um"
     )
     efficiency: float | None = number(
         None,
         "power out over power in where the first wheel drives; without it no loss",
-        "",
         gt=0,
         lt=1,
         example="0.95",
@@ -88,7 +87,6 @@ class Teeth(Flanks):
     backward_efficiency: float | None = number(
         None,
         "likewise where the first wheel is driven, below 0 of what locks itself; 2 - 1/efficiency without it",
-        "",
         ge=-10,
         le=1,
         example="0.9",

@@ -20,28 +20,24 @@ class SpringDamperKeys(NamedGroup):
     stiffness: Vector | None = vector(
         None,
         "stiffness of a spring-damper along axis, second axis and across both",
-        "",
         unit="N/um",
         example='["10 N/um", "10 N/um", "10 N/um"]',
     )
     damping: Vector | None = vector(
         None,
         "damping of a spring-damper along these directions",
-        "",
         unit="N s/m",
         example='["10 N s/m", "10 N s/m", "10 N s/m"]',
     )
     angular_stiffness: Vector | None = vector(
         None,
         "angular stiffness of a spring-damper about these directions",
-        "",
         unit="N m/rad",
         example='["0 N m/rad", "10 N m/rad", "10 N m/rad"]',
     )
     angular_damping: Vector | None = vector(
         None,
         "angular damping of a spring-damper about these directions",
-        "",
         unit="N m s/rad",
         example='["0 N m s/rad", "1 N m s/rad", "1 N m s/rad"]',
     )
@@ -79,36 +75,31 @@ def _six(along: Vector | None, about: Vector | None) -> list[float]:
 class BeamKeys(NamedGroup):
     """Length, rigidities and section of a beam."""
 
-    beam_length: float | None = quantity(
-        None, "length of a beam, which ends at point", "", gt=0, example="50 mm"
-    )
+    beam_length: float | None = quantity(None, "length of a beam, which ends at point", gt=0, example="50 mm")
     axial_rigidity: float | None = quantity(
-        None, "Young's modulus times area of a beam", "", gt=0, example="3e6 N"
+        None, "Young's modulus times area of a beam", gt=0, example="3e6 N"
     )
     torsional_rigidity: float | None = quantity(
-        None, "shear modulus times torsion constant of a beam", "", gt=0, unit="N m^2", example="10 N m^2"
+        None, "shear modulus times torsion constant of a beam", gt=0, unit="N m^2", example="10 N m^2"
     )
     bending_rigidity: Numbers | None = series(
         "Young's modulus times second moment of a beam, for deflection along second_axis and across both",
-        "",
         unit="N m^2",
         example='["90 N m^2", "9 N m^2"]',
     )
     shear_rigidity: Numbers | None = series(
         "shear modulus times area and shear factor of a beam along these; rigid without it",
-        "",
         unit="N",
         example='["1e6 N", "1e6 N"]',
     )
     damping_time: float | None = quantity(
-        None, "stress of a beam by its rate of strain over that by strain", "", ge=0, example="1 us"
+        None, "stress of a beam by its rate of strain over that by strain", ge=0, example="1 us"
     )
     section_area: float | None = quantity(
-        None, "area of a beam's section, for its stress", "", gt=0, example="30 mm^2"
+        None, "area of a beam's section, for its stress", gt=0, example="30 mm^2"
     )
     section_moduli: Numbers | None = series(
         "section moduli of a beam, for its stress, in the order of its rigidities; one of a round section",
-        "",
         unit="mm^3",
         example='["50 mm^3", "15 mm^3"]',
     )

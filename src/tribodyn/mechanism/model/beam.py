@@ -21,39 +21,31 @@ class BeamBodyKeys(NamedGroup):
 
     points: Numbers | None = series(
         "points that the beam goes through straight, first to last",
-        "",
         unit="mm",
         example='"0, 0, 0, 50, 0, 0 mm"',
     )
     section: Literal["rectangle", "circle", "tube", "any"] = choice(
         "rectangle", "shape of the section", "assumed"
     )
-    width: float | None = quantity(None, "width of a rectangle", "", gt=0, example="10 mm")
-    height: float | None = quantity(
-        None, "height of a rectangle, along height_axis", "", gt=0, example="3 mm"
-    )
+    width: float | None = quantity(None, "width of a rectangle", gt=0, example="10 mm")
+    height: float | None = quantity(None, "height of a rectangle, along height_axis", gt=0, example="3 mm")
     height_axis: Vector | None = vector(
-        None,
-        "direction of the height; by default across the line, near a global axis",
-        "",
-        example="[0, 0, 1]",
+        None, "direction of the height; by default across the line, near a global axis", example="[0, 0, 1]"
     )
-    radius: float | None = quantity(None, "radius of a circle or tube", "", gt=0, example="5 mm")
+    radius: float | None = quantity(None, "radius of a circle or tube", gt=0, example="5 mm")
     inner_radius: float = quantity("0 mm", "inner radius of a tube", "assumed", ge=0, example="4 mm")
-    area: float | None = quantity(None, "area of any section", "", gt=0, example="30 mm^2")
+    area: float | None = quantity(None, "area of any section", gt=0, example="30 mm^2")
     second_moments: Numbers | None = series(
         "second moments of any section, for deflection along height_axis and across it",
-        "",
         unit="mm^4",
         example='["22.5 mm^4", "250 mm^4"]',
     )
     torsion_constant: float | None = quantity(
-        None, "torsion constant of any section", "", gt=0, example="73 mm^4"
+        None, "torsion constant of any section", gt=0, example="73 mm^4"
     )
     shear_factor: float | None = number(
         None,
         "share of the area in the shear rigidity; by default that of the shape",
-        "",
         gt=0,
         le=1,
         example="0.83",
@@ -61,15 +53,14 @@ class BeamBodyKeys(NamedGroup):
     material: str | None = choice(
         None,
         "of the library, for Young's modulus and Poisson's ratio",
-        "",
         family="tribodyn.cases.materials:MATERIALS",
         example="steel-52100",
     )
-    young_modulus: float | None = quantity(None, "Young's modulus", "", gt=0, example="110 GPa")
+    young_modulus: float | None = quantity(None, "Young's modulus", gt=0, example="110 GPa")
     poisson_ratio: float | None = number(
-        None, "Poisson's ratio; 0.3 without a material", "", ge=0, lt=0.5, example="0.34"
+        None, "Poisson's ratio; 0.3 without a material", ge=0, lt=0.5, example="0.34"
     )
-    density: float | None = quantity(None, "density", "", gt=0, example="4430 kg/m^3")
+    density: float | None = quantity(None, "density", gt=0, example="4430 kg/m^3")
     segments: int = count(
         4, "pieces of the whole line, two at least between ends, corners and joints", "assumed", ge=2, le=64
     )

@@ -29,36 +29,33 @@ class BodyKeys(NamedGroup):
         None,
         "solid of uniform density: a round rod from start to end, a cylinder about the first axis, a box, or "
         "the inside of a mesh",
-        "",
         example="rod",
     )
-    density: float | None = quantity(None, "density of a shape", "", gt=0, example="7850 kg/m^3")
-    start: Vector | None = vector(None, "start of a rod", "", unit="mm", example=POINT)
-    end: Vector | None = vector(None, "end of a rod", "", unit="mm", example=POINT)
-    length: float | None = quantity(None, "length of a cylinder", "", gt=0, example="20 mm")
-    radius: float | None = quantity(None, "radius of a rod or cylinder", "", gt=0, example="8 mm")
-    inner_radius: float | None = quantity(None, "inner radius of a hollow cylinder", "", gt=0, example="4 mm")
+    density: float | None = quantity(None, "density of a shape", gt=0, example="7850 kg/m^3")
+    start: Vector | None = vector(None, "start of a rod", unit="mm", example=POINT)
+    end: Vector | None = vector(None, "end of a rod", unit="mm", example=POINT)
+    length: float | None = quantity(None, "length of a cylinder", gt=0, example="20 mm")
+    radius: float | None = quantity(None, "radius of a rod or cylinder", gt=0, example="8 mm")
+    inner_radius: float | None = quantity(None, "inner radius of a hollow cylinder", gt=0, example="4 mm")
     size: Vector | None = vector(
-        None, "edge lengths of a box along its axes", "", unit="mm", example='["30 mm", "20 mm", "10 mm"]'
+        None, "edge lengths of a box along its axes", unit="mm", example='["30 mm", "20 mm", "10 mm"]'
     )
     mesh: str | None = file("STL file of a closed surface, global coordinates", "lever.stl")
     mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
     facets: Numbers | None = series(
         "corners of triangles in global coordinates, anticlockwise from outside, instead of a file",
-        "",
         unit="m",
         example='"0, 0, 0, 1, 0, 0, 0, 1, 0 m"',
     )
-    scale: float | None = number(None, "size of a mesh over that of its triangles", "", gt=0, example="1.2")
+    scale: float | None = number(None, "size of a mesh over that of its triangles", gt=0, example="1.2")
     scaled_about: Vector | None = vector(
-        None, "point that the scale leaves in place; by default the mass centre", "", unit="mm", example=POINT
+        None, "point that the scale leaves in place; by default the mass centre", unit="mm", example=POINT
     )
-    mass: float = quantity(None, "mass", "", unit="kg", gt=0, example="0.3 kg", required=True)
-    centre: Vector = vector(None, "position of the mass centre", "", unit="mm", example=POINT, required=True)
+    mass: float = quantity(None, "mass", unit="kg", gt=0, example="0.3 kg", required=True)
+    centre: Vector = vector(None, "position of the mass centre", unit="mm", example=POINT, required=True)
     inertia: Vector = vector(
         None,
         "principal moments of inertia about the mass centre",
-        "",
         unit="kg m^2",
         example='["1e-4 kg m^2", "1e-4 kg m^2", "2e-4 kg m^2"]',
         required=True,
@@ -70,7 +67,7 @@ class BodyKeys(NamedGroup):
         "0, 1, 0", "direction of the second principal axis", "global axes", example="[0, 1, 0]"
     )
 
-    elastic: Literal["beam"] | None = choice(None, "what it bends as; rigid without it", "", example="beam")
+    elastic: Literal["beam"] | None = choice(None, "what it bends as; rigid without it", example="beam")
     beam: BeamBodyKeys | None = None
 
     def model_post_init(self, context: object, /) -> None:

@@ -61,7 +61,7 @@ COORDINATE_OF: Final = {
 class DriveKeys(NamedGroup):
     """Drive of the mechanism, at a joint: one of the tables below it."""
 
-    joint: str = name(None, "which joint it moves", "", example="main", required=True)
+    joint: str = name(None, "which joint it moves", example="main", required=True)
     angle: AngleSignal | None = None
     speed: SpeedSignal | None = None
     torque: TorqueSignal | None = None
@@ -69,10 +69,10 @@ class DriveKeys(NamedGroup):
     velocity: VelocitySignal | None = None
     force: ForceSignal | None = None
     torque_limit: float | None = quantity(
-        None, "most that the motor may give: results say which share it gives", "", gt=0, example="5 N m"
+        None, "most that the motor may give: results say which share it gives", gt=0, example="5 N m"
     )
     force_limit: float | None = quantity(
-        None, "most that the actuator may give: results say which share it gives", "", gt=0, example="500 N"
+        None, "most that the actuator may give: results say which share it gives", gt=0, example="500 N"
     )
 
     def model_post_init(self, context: object, /) -> None:
@@ -119,15 +119,15 @@ class DriveKeys(NamedGroup):
 class LoadKeys(BodyLoad):
     """A force and a moment on a body."""
 
-    body: str = name(None, "which body it acts on", "", example="slider", required=True)
+    body: str = name(None, "which body it acts on", example="slider", required=True)
     point: Vector | None = vector(
-        None, "point of application of the force; by default the mass centre", "", unit="mm", example=POINT
+        None, "point of application of the force; by default the mass centre", unit="mm", example=POINT
     )
     span_axis: Vector | None = vector(
-        None, "direction of positions of a span, from the point", "", example="[0, 0, 1]"
+        None, "direction of positions of a span, from the point", example="[0, 0, 1]"
     )
     along: str | None = name(
-        None, "joint whose coordinate or speed a table follows; time without it", "", example="main"
+        None, "joint whose coordinate or speed a table follows; time without it", example="main"
     )
 
     def model_post_init(self, context: object, /) -> None:

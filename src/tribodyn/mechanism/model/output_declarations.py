@@ -17,13 +17,10 @@ class JointInstants(InstantKeys):
     """Places at which the error of an output is read, by the coordinate of a joint."""
 
     positions: Numbers | None = series(
-        "positions of the drive at which the error is read", "", unit="mm", example='["5 mm", "20 mm"]'
+        "positions of the drive at which the error is read", unit="mm", example='["5 mm", "20 mm"]'
     )
     joint: str | None = name(
-        None,
-        "joint whose angles or positions these are; by default that of the first drive",
-        "",
-        example="main",
+        None, "joint whose angles or positions these are; by default that of the first drive", example="main"
     )
 
 
@@ -49,15 +46,14 @@ class OutputKeys(ErrorKeys):
         "assumed",
     )
     at: JointInstants = JointInstants()
-    body: str = name(None, "body that is observed", "", example="slider", required=True)
+    body: str = name(None, "body that is observed", example="slider", required=True)
     point: Vector | None = vector(
-        None, "observed point; by default the mass centre", "", unit="mm", example=POINT
+        None, "observed point; by default the mass centre", unit="mm", example=POINT
     )
     reference: str = name(GROUND, "body against which it is observed, or ground", "assumed", example="frame")
     reference_point: Vector | None = vector(
         None,
         "point of the reference; by default at the position of the observed point",
-        "",
         unit="mm",
         example=POINT,
     )
@@ -65,14 +61,12 @@ class OutputKeys(ErrorKeys):
         None,
         "joint whose motion in the run the ideal mechanism has, too; by default those of motors, controllers "
         "and drives by a torque or a force, where drives by a motion leave the output free",
-        "",
         example="main",
     )
     along: Vector | None = vector(
         None,
         "direction of a position or velocity, axis of an angle, fixed to the reference; without it "
         "a position or velocity counts in all directions",
-        "",
         example=_AXIS,
     )
 

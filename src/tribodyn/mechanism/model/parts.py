@@ -85,18 +85,16 @@ _LEAST_ANGLE: Final = 1e-3  #: Sine of the least angle between two axes that mus
 class _Sizes(NamedGroup):
     """The sizes that several shapes have."""
 
-    radius: float | None = quantity(None, "radius of the pin or ball", "", gt=0, example="9.5 mm")
+    radius: float | None = quantity(None, "radius of the pin or ball", gt=0, example="9.5 mm")
     radial: float | None = quantity(
         None,
         "radial clearance: radius of the bore minus radius of the pin; gap at each flat wall, centred",
-        "",
         gt=0,
         example="20 um",
     )
     length: float | None = quantity(
         None,
         "length of the bore of a cylinder, of the block of a guide, of the pin in a slot",
-        "",
         gt=0,
         example="20 mm",
     )
@@ -114,11 +112,10 @@ class ClearanceKeys(_OfAllShapes):
     shape: str | None = choice(
         None,
         "shape of the surfaces, if not the default of the joint type",
-        "",
         family="tribodyn.mechanism.shapes:SHAPES",
         example="mesh",
     )
-    socket: str | None = name(None, "body that carries the bore; by default the first one", "", example="rod")
+    socket: str | None = name(None, "body that carries the bore; by default the first one", example="rod")
     friction_coefficient: float = number(
         0.1,
         "coefficient of friction mu_f; without it that of its pair, or of the case",
@@ -133,16 +130,12 @@ class ClearanceKeys(_OfAllShapes):
         SURFACE, "over the surface, or at a point", "assumed", family="tribodyn.joints:CONTACTS"
     )
     pair: str | None = name(
-        None,
-        "its surfaces and contact law, of [pairs]; those of the case without it",
-        "",
-        example="steel-ptfe",
+        None, "its surfaces and contact law, of [pairs]; those of the case without it", example="steel-ptfe"
     )
     bulk: Literal["conformal", "sleeve", "none"] | None = choice(
         None,
         "what yields under the asperities: both bodies, the sleeve of liner, or nothing; without it the "
         "sleeve where liner has a thickness, else nothing, or both where asperities do not carry",
-        "",
         example="conformal",
     )
     liner: LinerKeys = LinerKeys()
@@ -150,11 +143,9 @@ class ClearanceKeys(_OfAllShapes):
     temperature: Temperature = Temperature()
     ideal: bool = switch(False, "treat the joint as ideal and ignore this table", "assumed")
     nodes_around: int | None = count(
-        None, "nodes around; without it solver.grid.theta", "", ge=12, le=4096, example="96"
+        None, "nodes around; without it solver.grid.theta", ge=12, le=4096, example="96"
     )
-    nodes_along: int | None = count(
-        None, "nodes along; without it solver.grid.z", "", ge=2, le=256, example="16"
-    )
+    nodes_along: int | None = count(None, "nodes along; without it solver.grid.z", ge=2, le=256, example="16")
 
     def model_post_init(self, context: object, /) -> None:
         """Check sizes against each other."""
@@ -199,40 +190,33 @@ class _Joint(NamedGroup):
     type: str = choice(
         None,
         "what it lets move",
-        "",
         family="tribodyn.mechanism.joints:JOINTS",
         example="revolute",
         required=True,
     )
-    between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "crank"]')
-    point: Vector = vector(None, "position of the joint", "", unit="mm", example=POINT, required=True)
+    between: tuple[str, str] = names("the two bodies, or ground", length=2, example='["ground", "crank"]')
+    point: Vector = vector(None, "position of the joint", unit="mm", example=POINT, required=True)
     other_point: Vector | None = vector(
-        None, "position on the second body, if the model has a gap to be closed", "", unit="mm", example=POINT
+        None, "position on the second body, if the model has a gap to be closed", unit="mm", example=POINT
     )
     axis: Vector | None = vector(
         None,
         "its direction, of any length; of the race of a ball joint with clearance, without it "
         "normal to the plane of the joint and the mass centres of both bodies",
-        "",
         example="[0, 0, 1]",
     )
     second_axis: Vector | None = vector(
-        None,
-        "the other one of a universal joint; the direction of angle zero of others",
-        "",
-        example="[1, 0, 0]",
+        None, "the other one of a universal joint; the direction of angle zero of others", example="[1, 0, 0]"
     )
     start_speed: float | None = quantity(
         None,
         "angular speed at the start, where nothing drives it; without it that of least kinetic energy",
-        "",
         unit="rpm",
         example="100 rpm",
     )
     start_velocity: float | None = quantity(
         None,
         "speed along the axis at the start, where nothing drives it; without it that of least kinetic energy",
-        "",
         unit="m/s",
         example="1 m/s",
     )
@@ -341,17 +325,17 @@ class JointKeys(_OfAllTypes):
 class SpringKeys(NamedGroup):
     """A spring and damper between two points."""
 
-    between: tuple[str, str] = names("the two bodies, or ground", "", length=2, example='["ground", "rod"]')
+    between: tuple[str, str] = names("the two bodies, or ground", length=2, example='["ground", "rod"]')
     first_point: Vector = vector(
-        None, "position of its end on the first body", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the first body", unit="mm", example=POINT, required=True
     )
     second_point: Vector = vector(
-        None, "position of its end on the second body", "", unit="mm", example=POINT, required=True
+        None, "position of its end on the second body", unit="mm", example=POINT, required=True
     )
     stiffness: float = quantity("0 N/mm", "force over elongation", "assumed", ge=0, example="2 N/mm")
     damping: float = quantity("0 N s/m", "force over speed", "assumed", ge=0, example="5 N s/m")
     length: float | None = quantity(
-        None, "length without force; by default the distance of its ends", "", ge=0, example="80 mm"
+        None, "length without force; by default the distance of its ends", ge=0, example="80 mm"
     )
 
     def model_post_init(self, context: object, /) -> None:

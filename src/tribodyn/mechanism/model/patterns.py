@@ -48,9 +48,9 @@ class AboutKeys(NamedGroup):
     """The axis that copies stand around."""
 
     point: Vector = vector("0, 0, 0 mm", "a point of it", "assumed", unit="mm", example=POINT)
-    axis: Vector = vector(None, "its direction", "", example="[1, 0, 0]", required=True)
+    axis: Vector = vector(None, "its direction", example="[1, 0, 0]", required=True)
     step: float | None = quantity(
-        None, "angle from copy to copy; by default a turn over their number", "", unit="deg", example="3 deg"
+        None, "angle from copy to copy; by default a turn over their number", unit="deg", example="3 deg"
     )
 
 
@@ -60,12 +60,12 @@ class PatternKeys(NamedGroup):
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("about.axis", "step"),)
 
     count: int = count(
-        None, "number of copies, the one as drawn included", "", ge=2, le=_MOST_COPIES, example="40"
+        None, "number of copies, the one as drawn included", ge=2, le=_MOST_COPIES, example="40"
     )
-    bodies: tuple[str, ...] = names("the bodies that are repeated", "", length=0, example='["vane", "lever"]')
+    bodies: tuple[str, ...] = names("the bodies that are repeated", length=0, example='["vane", "lever"]')
     about: AboutKeys | None = None
     step: Vector | None = vector(
-        None, "way from copy to copy along a line", "", unit="mm", example='["20 mm", "0 mm", "0 mm"]'
+        None, "way from copy to copy along a line", unit="mm", example='["20 mm", "0 mm", "0 mm"]'
     )
 
     def model_post_init(self, context: object, /) -> None:
@@ -115,22 +115,22 @@ class ScatterKeys(NamedGroup):
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("values", "distribution"), ("values", "csv"))
 
-    pattern: str = name(None, "whose copies", "", example="vanes", required=True)
+    pattern: str = name(None, "whose copies", example="vanes", required=True)
     key: str = name(
-        None, "which key of a repeated part", "", example="joints.trunnion.clearance.radial", required=True
+        None, "which key of a repeated part", example="joints.trunnion.clearance.radial", required=True
     )
     values: tuple[str, ...] | None = names(
-        "a value for each copy", "", length=0, example='["20 um", "22 um"]', required=False
+        "a value for each copy", length=0, example='["20 um", "22 um"]', required=False
     )
     csv: str | None = file(
         "CSV file with a value for each copy, a row each, under a header with units", "vanes.csv"
     )
-    column: str | None = name(None, "its column; by default the first", "", example="radial")
+    column: str | None = name(None, "its column; by default the first", example="radial")
     distribution: Literal["normal", "uniform"] | None = choice(
-        None, "what values are drawn from", "", example="normal"
+        None, "what values are drawn from", example="normal"
     )
     arguments: tuple[str, ...] | None = names(
-        "mean and standard deviation, or both ends", "", length=2, example='["20 um", "2 um"]', required=False
+        "mean and standard deviation, or both ends", length=2, example='["20 um", "2 um"]', required=False
     )
     seed: int = count(1, "of the numbers that are drawn", "assumed", ge=0, le=2**31)
     added: bool = switch(False, "add them to the value of the key instead", "assumed")

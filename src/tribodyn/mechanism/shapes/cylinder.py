@@ -20,29 +20,23 @@ class BoreKeys(NamedGroup):
     pin_length: float | None = quantity(
         None,
         "length of a pin that is shorter than its bore, such as a piston; the pin passes through without it",
-        "",
         gt=0,
         example="15 mm",
     )
     axial: float | None = quantity(
-        None, "gap at each end face when centred; without it the pin slides freely", "", gt=0, example="50 um"
+        None, "gap at each end face when centred; without it the pin slides freely", gt=0, example="50 um"
     )
     axial_upper: float | None = quantity(
         None,
         "gap at the end face that the axis points to; carries a pin pushed against the axis",
-        "",
         gt=0,
         example="50 um",
     )
     axial_lower: float | None = quantity(
-        None, "gap at the other end face; carries a pin pushed along the axis", "", gt=0, example="50 um"
+        None, "gap at the other end face; carries a pin pushed along the axis", gt=0, example="50 um"
     )
     flange: float | None = quantity(
-        None,
-        f"outer radius of the end faces; by default {FLANGE} times the radius",
-        "",
-        gt=0,
-        example="12 mm",
+        None, f"outer radius of the end faces; by default {FLANGE} times the radius", gt=0, example="12 mm"
     )
 
     @property

@@ -18,12 +18,11 @@ class BlockKeys(NamedGroup):
     width: float | None = quantity(
         None,
         "width of the block of a guide, along second_axis; of a dovetail that of its wide side",
-        "",
         gt=0,
         example="30 mm",
     )
     height: float | None = quantity(
-        None, "height of the block of a guide, across axis and second_axis", "", gt=0, example="20 mm"
+        None, "height of the block of a guide, across axis and second_axis", gt=0, example="20 mm"
     )
     through: bool = switch(
         False,

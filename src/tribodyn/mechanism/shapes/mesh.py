@@ -19,12 +19,11 @@ class MeshKeys(NamedGroup):
     mesh: str | None = file("STL file of the bore, global coordinates, outsides anticlockwise", "socket.stl")
     mesh_unit: float = quantity("1 mm", "length unit of that file", "assumed", gt=0)
     mesh_edge: float | None = quantity(
-        None, "longest edge of a triangle; longer ones are split", "", gt=0, example="0.5 mm"
+        None, "longest edge of a triangle; longer ones are split", gt=0, example="0.5 mm"
     )
-    gap: float | None = quantity(None, "constant gap of a mesh", "", gt=0, example="20 um")
+    gap: float | None = quantity(None, "constant gap of a mesh", gt=0, example="20 um")
     facets: Numbers | None = series(
         "corners of triangles in global coordinates, instead of a file",
-        "",
         unit="m",
         example='"0, 0, 0, 1, 0, 0, 0, 1, 0 m"',
     )

@@ -13,8 +13,8 @@ from tribodyn.mechanism.shapes.cylinder import ShaftInBore
 class PadKeys(NamedGroup):
     """Number, width and place of pads."""
 
-    pads: int | None = count(None, "pads around a ring, at equal angles", "", ge=3, le=1000, example="4")
-    pad_width: float | None = quantity(None, "width of a pad along the ring", "", gt=0, example="20 mm")
+    pads: int | None = count(None, "pads around a ring, at equal angles", ge=3, le=1000, example="4")
+    pad_width: float | None = quantity(None, "width of a pad along the ring", gt=0, example="20 mm")
     pad_angle: float = quantity("0 deg", "angle of the first pad from second_axis", "assumed")
 
 

@@ -132,10 +132,10 @@ class _Shaken(NamedGroup):
 
     SIZE: ClassVar[str]  #: Key of a signal that holds the sizes.
 
-    force_x: float | None = quantity(None, "force along X", "", example="0.5 N")
-    force_y: float | None = quantity(None, "force along Y", "", example="0.5 N")
-    force_z: float | None = quantity(None, "force along Z", "", example="0.5 N")
-    moment: float | None = quantity(None, "moment about Z", "", example="0.02 N m")
+    force_x: float | None = quantity(None, "force along X", example="0.5 N")
+    force_y: float | None = quantity(None, "force along Y", example="0.5 N")
+    force_z: float | None = quantity(None, "force along Z", example="0.5 N")
+    moment: float | None = quantity(None, "moment about Z", example="0.02 N m")
 
     def model_post_init(self, context: object, /) -> None:
         """Check that there is a load."""

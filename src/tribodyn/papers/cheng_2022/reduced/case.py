@@ -157,7 +157,7 @@ class VsvCase(BushingCase):
 
     ALTERNATIVES: ClassVar[tuple[tuple[str, str], ...]] = (("run.cycles", "run.duration"),)
 
-    case: Literal["vsv"] = choice("vsv", "the kind of system", "")
+    case: Literal["vsv"] = choice("vsv", "the kind of system")
     title: str = text(
         "Variable stator vane mechanism, dry rough trunnion joint", "heading of figures and report"
     )
