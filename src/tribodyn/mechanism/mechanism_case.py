@@ -485,6 +485,12 @@ class MechanismCase(_WithElements):
             return self
         return self.with_elements(lambda keys: keys.without_play)
 
+    def without_deviations(self) -> Self:
+        """Return the case with all joints where their points are."""
+        off = {name: joint for name, joint in self.joints.items() if any(joint.deviation)}
+        made = {name: joint.model_copy(update={"deviation": (0.0, 0.0, 0.0)}) for name, joint in off.items()}
+        return self.model_copy(update={"joints": {**self.joints, **made}}) if off else self
+
     def with_elements(self, change: Callable[[ElementKeys], ElementKeys]) -> Self:
         """Return the case with each element as ``change`` returns it."""
         tables: dict[str, dict[str, ElementKeys]] = {}
@@ -544,6 +550,9 @@ class MechanismCase(_WithElements):
         words = "nothing says how long a cycle is; give run.period, or run.duration instead"
         demand(run.cycles is None or self.period is not None, "run.cycles", words)
         check_output_interval(self.output_interval, self.duration)
+        words = "a kinematic analysis has ideal joints in their places; leave it out, or run another analysis"
+        for name, joint in self.joints.items() if run.analysis == "kinematic" else ():
+            demand(not any(joint.deviation), f"joints.{name}.deviation", words)
         words = 'only a static analysis passes its positions in both directions; give run.analysis = "static"'
         demand(run.directions == "forward" or run.analysis == "static", "run.directions", words)
         for table, name, keys in self.elements():

@@ -54,6 +54,29 @@ def test_a_vane_of_twice_the_clearance_is_the_worst_copy(equal: xr.Dataset) -> N
     assert np.max(np.delete(moved, 2)) < 0.1 * moved[2]
 
 
+def test_a_hole_off_its_place_turns_its_vane_as_the_lever_does(equal: xr.Dataset) -> None:
+    """A hole that is off by δ along the ring turns a lever (x, y) by δ/y, or by δ y/(x² + y²) if that is all.
+
+    Between these the vane yields in its bore. A bore that is off does the opposite. No other vane feels it.
+    """
+    x, y = 24.240900475e-3, 43.730752842e-3
+    for joint, sign in (("pin", -1.0), ("trunnion", 1.0)):
+        found = td.simulate(ring(4, **{f"joints.{joint}[1].deviation": "10, 0, 0 um"}))
+        assert found["output_ideal"].values[-1] == pytest.approx(equal["output_ideal"].values[-1], abs=1e-12)
+        moved = sign * (late(found, "output_error") - late(equal, "output_error")).mean(axis=0)
+        assert 10e-6 * y / (x**2 + y**2) < moved[0] < 10e-6 / y
+        assert np.max(np.abs(moved[1:])) < 0.02 * moved[0]
+    with pytest.raises(InputError, match="a kinematic analysis has ideal joints in their places"):
+        ring(4, **{"joints.pin[1].deviation": "10, 0, 0 um", "run.analysis": "kinematic"})
+
+
+def test_where_a_copy_has_no_error_none_is_the_worst_and_none_is_drawn() -> None:
+    found = td.simulate(ring(4, **{"joints.trunnion[1].other_point": "0.01, 0, 390 mm"}))
+    assert np.isnan(found["output_error"].values).all()
+    assert np.isnan(summarise(found).get("copies_worst", np.nan))
+    assert not around(found)
+
+
 def test_elastic_levers_add_their_bending(equal: xr.Dataset) -> None:
     found = td.simulate(ring(4, rigid=False))
     assert found.attrs["failure"] == ""

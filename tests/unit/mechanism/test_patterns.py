@@ -182,6 +182,30 @@ def test_a_wrong_pattern_is_refused_in_one_sentence(ring, changes, words):
     assert "\n" not in str(caught.value)
 
 
+def test_keys_that_scatter_do_not_go_together(ring: Case) -> None:
+    law = {"pattern": "vanes", "distribution": "normal", "arguments": ["0 um", "10 um"], "added": True}
+    keys = {"play": RADIAL, "hole": "joints.pin.deviation.x", "bore": "joints.trunnion.deviation.y"}
+    entries = {f"scatter.{name}.{key}": value for name in keys for key, value in law.items()}
+    found = with_entries(ring, entries | {f"scatter.{n}.key": key for n, key in keys.items()}, "test")
+    off = [np.array(radials(found)) - 20e-6]
+    for joint, axis in (("pin", 0), ("trunnion", 1)):
+        ways = [found.at(f"joints.{joint}[{k}].deviation") for k in (1, 2, 3)]
+        as_first = [found.pattern["vanes"].as_first(k, way) for k, way in enumerate(ways, 1)]
+        # A way turns with its copy, and is as long.
+        assert np.delete(as_first, axis, axis=1) == pytest.approx(0.0, abs=1e-18)
+        off.append(np.array(as_first)[:, axis])
+    assert np.abs(np.corrcoef(off)[np.triu_indices(3, 1)]).max() < 0.9
+
+
+def test_a_hole_off_its_place_is_an_error_at_rest_too(ring: Case) -> None:
+    error = td.simulate(ring)["output_error"].values
+    found = td.simulate(ring.replace({"joints.pin[1].deviation": "10, 0, 0 um"}))
+    moved = error - found["output_error"].values
+    # Between the turn of a lever (24, 40) mm with a hole that gives way along it, and with one that does not.
+    assert 10e-6 * 40e-3 / (24e-3**2 + 40e-3**2) < np.mean(moved[:, 0]) < 10e-6 / 40e-3
+    assert np.max(np.abs(moved[:, 1:])) < 0.05 * np.min(moved[:, 0])
+
+
 def test_equal_copies_have_equal_errors_and_a_looser_one_its_own(ring: Case) -> None:
     error = td.simulate(ring)["output_error"].values
     assert np.max(np.ptp(error, axis=1)) < 1e-4 * np.max(np.abs(error))

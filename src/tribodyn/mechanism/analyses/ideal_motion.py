@@ -1,4 +1,4 @@
-"""Motion of the ideal counterpart of a mechanism: every joint ideal, no backlash, the same drives.
+"""Motion of the ideal counterpart of a mechanism: joints ideal and in place, no backlash, the same drives.
 
 Drives and joints determine it without forces, position by position. Where they leave freedoms, an output
 may depend on these. Then the counterpart follows the motion that joints had in the run: those of motors,

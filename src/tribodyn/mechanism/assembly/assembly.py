@@ -12,7 +12,7 @@ from tribodyn.kernels.mechanism.bodies import collect, place
 from tribodyn.kernels.mechanism.data import N_STATES, MechanismData, MechanismMemory
 from tribodyn.kernels.mechanism.redundancy import choose_rows, row_scale
 from tribodyn.kernels.mechanism.solution import kinematics, set_compliance, set_offsets
-from tribodyn.mechanism.assembly.closing import CLOSED, SIZE, System
+from tribodyn.mechanism.assembly.closing import CLOSED, CLOSES, SIZE, System
 from tribodyn.mechanism.assembly.decompositions import DEPENDENT
 from tribodyn.mechanism.assembly.misfit import Misfit
 from tribodyn.mechanism.assembly.odd_axes import odd_axes
@@ -109,13 +109,13 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     that concern the model alone are part of the result.
     """
     findings = list(model.loose())
-    closed, open_joints, findings_if_ideal = _closed(model)
+    closed, open_joints, findings_if_ideal = _closed(in_place := model.in_place)
     findings += open_joints
-    as_drawn = not (model.yields or model.held)
+    as_drawn = not (model.yields or model.held) and in_place is model
     system = System(model, worn, data=closed.data if as_drawn else None)
     system.take_positions(closed)
-    if findings_if_ideal:
-        system.close()
+    if (findings_if_ideal or in_place is not model) and system.close() >= CLOSES and not findings_if_ideal:
+        findings.append(system.open_joint())
     rank, dependent = system.independence()
     redundancy = None
     if dependent.size:
@@ -129,7 +129,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     ideal_rows: int | None = None if model.yields else rank
     if model.yields:
         ideal = Misfit(model, System(model.counterpart))
-        ideal.system.take_positions(system)
+        ideal.system.take_positions(system if in_place is model else closed)
     if ideal and model.has_loops and not (contradictions or open_joints or findings_if_ideal):
         ideal_rank, dependent = ideal.system.independence()
         findings_if_ideal = _contradictions(ideal.system, dependent)

@@ -137,8 +137,14 @@ class Model:
 
     @property
     def counterpart(self) -> "Model":
-        """The mechanism as the clearances vanish: every joint is the ideal one that holds the same."""
-        return self._with_ideal(self.joints)
+        """The mechanism as clearances and deviations vanish: joints are the ideal ones that hold the same."""
+        return self.in_place._with_ideal(self.joints)
+
+    @property
+    def in_place(self) -> "Model":
+        """The mechanism whose joints are where their points are."""
+        case = self.case.without_deviations()
+        return self if case is self.case else replace(self, case=case)
 
     @property
     def without_play(self) -> "Model":

@@ -69,8 +69,10 @@ def drive_through(assembly: Assembly, duration: float) -> Passage:
 
 
 def placed(system: System, assembly: Assembly) -> System:
-    """Put the bodies of a system where they are at the start."""
+    """Put the bodies of a system where they are at the start, or next to it where joints deviate."""
     system.adopt(assembly.state)
+    if assembly.model.in_place is not assembly.model:
+        system.close()
     return system
 
 

@@ -199,6 +199,12 @@ class _Joint(NamedGroup):
     other_point: Vector | None = vector(
         None, "position on the second body, if the model has a gap to be closed", unit="mm", example=POINT
     )
+    deviation: Vector = vector(
+        "0, 0, 0 mm",
+        "how far it is made off point on the first body; not so in the ideal counterpart",
+        "assumed",
+        unit="mm",
+    )
     axis: Vector | None = vector(
         None,
         "its direction, of any length; of the race of a ball joint with clearance, without it "
@@ -313,7 +319,8 @@ class JointKeys(_OfAllTypes):
     @property
     def points(self) -> tuple[Vector, Vector]:
         """Places on the first and on the second body, as in the model [m]."""
-        return self.point, self.other_point or self.point
+        (x, y, z), off, other = self.point, self.deviation, self.other_point or self.point
+        return (x + off[0], y + off[1], z + off[2]) if any(off) else self.point, other
 
     @property
     def shape(self) -> str:

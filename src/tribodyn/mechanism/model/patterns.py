@@ -41,6 +41,7 @@ _MOST_COPIES: Final = 1000
 _OF_JOINTS: Final = ("joint", "joints", "along", "follows")
 _OF_BODIES: Final = ("between", "body", "reference", "socket")  #: Keys that name joints, and bodies.
 _SIZE: Final = "size"  #: Key that holds three lengths and no place.
+_WAY: Final = "deviation"  #: Key that holds a way and no place.
 _PLACES: Final = ("points", "facets")  #: Keys that hold the coordinates of several points.
 
 
@@ -99,6 +100,10 @@ class PatternKeys(NamedGroup):
         """Return a direction of a copy."""
         return tuple(dense.product(self._turned(copy)[0], np.array(direction)).tolist())
 
+    def as_first(self, copy: int, direction: Sequence[float]) -> tuple[float, ...]:
+        """Return a direction of a copy as the first copy has it."""
+        return tuple(dense.product(np.array(direction), self._turned(copy)[0]).tolist())
+
     def _turned(self, copy: int) -> tuple[FloatArray, FloatArray]:
         """Return the matrix of rotation and the way of a copy; the first one stays exactly where it is."""
         angle, way = self._moved(copy)
@@ -132,16 +137,17 @@ class ScatterKeys(NamedGroup):
     arguments: tuple[str, ...] | None = names(
         "mean and standard deviation, or both ends", length=2, example='["20 um", "2 um"]', required=False
     )
-    seed: int = count(1, "of the numbers that are drawn", "assumed", ge=0, le=2**31)
+    seed: int = count(1, "of the numbers that are drawn, other ones for each key", "assumed", ge=0, le=2**31)
     added: bool = switch(False, "add them to the value of the key instead", "assumed")
 
-    def drawn(self, key: Key, number: int) -> list[float]:
-        """Return a value for each of some copies [SI]."""
+    def drawn(self, key: Key, number: int, place: int) -> list[float]:
+        """Return a value for each of some copies [SI]; ``place`` is that among all that scatters."""
         if self.distribution is None:
             words = f"the pattern has {number} copies, and here are {len(self.values or ())} values"
             demand(len(self.values or ()) == number, "values", words)
             return self.at_shares(key, [(copy + 0.5) / number for copy in range(number)])
-        return self.at_shares(key, np.random.default_rng(self.seed).random(number).tolist())
+        chance = np.random.default_rng([self.seed, place] if place else self.seed)
+        return self.at_shares(key, chance.random(number).tolist())
 
     def at_shares(self, key: Key, shares: Sequence[float]) -> list[float]:
         """Return the values [SI] below which shares of all copies lie; of a list, those at shares of it."""
@@ -178,7 +184,7 @@ def with_copies(
     for label, one in scatter.items():
         demand_known(one.pattern, patterns, f"{SCATTER}.{label}.pattern", "pattern")
     for label, pattern in patterns.items():
-        own = {key: one for key, one in scatter.items() if one.pattern == label}
+        own = {key: (place, one) for place, (key, one) in enumerate(scatter.items()) if one.pattern == label}
         bodies = _names(values, "bodies")
         for other, before in patterns.items():
             both = [body for body in pattern.bodies if other != label and body in before.bodies]
@@ -247,11 +253,13 @@ class _Repeated:
         self._parts = repeated(pattern, parts_that_name(values))
 
     def copies(
-        self, scatter: Mapping[str, ScatterKeys], tables: list[str]
+        self, scatter: Mapping[str, tuple[int, ScatterKeys]], tables: list[str]
     ) -> tuple[dict[str, Value], list[str]]:
         """Return values and tables with copies in the place of the parts."""
         numbers = range(1, self._pattern.count + 1)
-        drawn = {key: self._drawn(name, one) for name, one in scatter.items() for key in [one.key]}
+        drawn = {one.key: self._drawn(name, place, one) for name, (place, one) in scatter.items()}
+        for path in (path for path, axis in map(_component, drawn) if axis is not None):
+            self._values.setdefault(path, self._keys[path].default or (0.0,) * 3)  # of which a part scatters
         found: dict[str, Value] = {}
         for path, value in self._values.items():
             if _part(path) not in self._parts:
@@ -275,7 +283,7 @@ class _Repeated:
         ]
         return found, list(dict.fromkeys(copied))
 
-    def _drawn(self, name: str, one: ScatterKeys) -> list[float]:
+    def _drawn(self, name: str, place: int, one: ScatterKeys) -> list[float]:
         """Return the values of a key for all copies."""
         path, axis = _component(one.key)
         key = self._keys.get(path)
@@ -284,7 +292,7 @@ class _Repeated:
         assert key is not None
         kind = "quantity" if key.unit else "number"
         with below(f"{SCATTER}.{name}"):
-            given = one.drawn(_as(key, kind), self._pattern.count)
+            given = one.drawn(_as(key, kind), self._pattern.count, place)
             held = self._values.get(path, key.default)
             base: object = held[axis] if isinstance(held, tuple) and axis is not None else held
             words = "this key has no value that they could be added to"
@@ -314,9 +322,9 @@ class _Repeated:
         key, last = self._keys[path], path.rpartition(".")[2]
         if not isinstance(value, tuple) or key.kind not in ("vector", "series"):
             return value
-        if (key.unit == "mm" and key.kind == "vector" and last != _SIZE) or last in _PLACES:
+        if (key.unit == "mm" and key.kind == "vector" and last not in (_SIZE, _WAY)) or last in _PLACES:
             return self._pattern.placed(copy, value)  # type: ignore[arg-type]
-        directs = key.kind == "vector" and not key.unit
+        directs = key.kind == "vector" and (not key.unit or last == _WAY)
         return self._pattern.directed(copy, value) if directs else value  # type: ignore[arg-type]
 
     def _assumed(self, part: str) -> Iterator[tuple[str, Value]]:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _COPY: Final = re.compile(r"(.+)\[\d+\]")
-_OF_COPY: Final = re.compile(r"([^[]+)\[\d+\](\.[^:[]+)")  #: Path of a key of a copy.
+_OF_COPY: Final = re.compile(r"([^[]+)\[(?P<copy>\d+)\](\.[^:[]+)")  #: Path of a key of a copy.
 _SAME: Final = 1e-9  #: Relative difference of values that are the same.
 
 
@@ -108,7 +108,15 @@ def _differing(case: MechanismCase) -> dict[str, FloatArray]:
         if match := _OF_COPY.fullmatch(path):
             value = case.at(path)
             if isinstance(value, float):
-                found.setdefault(match[1] + match[2], []).append(value)
+                found.setdefault(match[1] + match[3], []).append(value)
+            elif match[3] == ".deviation" and isinstance(value, tuple):
+                name, copy = path.split(".")[1], int(match["copy"])
+                bodies = [body.partition("[")[0] for body in case.joints[name].between]
+                own = next(one for one in case.pattern.values() if set(bodies) & set(one.bodies))
+                way = own.as_first(copy, value)  # type: ignore[arg-type]
+                for axis, part in zip("xyz", way, strict=True):
+                    rounded = abs(part) <= _SAME * math.hypot(*way)
+                    found.setdefault(f"{match[1]}{match[3]}.{axis}", []).append(0.0 if rounded else part)
     return {key: np.array(of) for key, of in found.items() if np.ptp(of) > _SAME * np.max(np.abs(of))}
 
 
@@ -166,11 +174,11 @@ def _turned(unit: str, dataset: "xr.Dataset") -> float:
 
 
 def _which(dataset: "xr.Dataset") -> float:
-    """Return the worst copy of the first output that is repeated."""
-    numbers = next(iter(copies_of(dataset).values()), None)
-    if numbers is None:
-        return math.nan
+    """Return the worst copy of the first output that is repeated; NaN where a copy has no error."""
+    numbers = next(iter(copies_of(dataset).values()), [])
     error, time = column(dataset, "output_error")[:, numbers], column(dataset, "time")
+    if not (error.size and np.isfinite(error).all()):
+        return math.nan
     return 1.0 + worst(settled(dataset, error), settled(dataset, time))
 
 
@@ -179,7 +187,8 @@ def _beyond(dataset: "xr.Dataset") -> float:
     limits, error = entries(dataset, "output_error_limit"), column(dataset, "output_error")
     numbers = [k for of in copies_of(dataset).values() for k in of if np.isfinite(limits[k])]
     largest = np.abs(settled(dataset, error[:, numbers])).max(axis=0, initial=0.0)
-    return 100.0 * float(np.mean(largest > limits[numbers])) if numbers else math.nan
+    known = bool(numbers) and bool(np.isfinite(largest).all())
+    return 100.0 * float(np.mean(largest > limits[numbers])) if known else math.nan
 
 
 def _of_unit(unit: str) -> Iterator[tuple[str, KeyResult]]:

@@ -50,11 +50,13 @@ class Around:
 
 
 def around(dataset: xr.Dataset) -> list[Around]:
-    """Return the errors of each output that is repeated; none without rows."""
+    """Return the errors of each output that is repeated; none without rows, or where one has none."""
     found: list[Around] = []
     for name, numbers in copies_of(dataset).items() if dataset.sizes["time"] else ():
         unit = ERROR_UNITS[str(dataset["output_unit"].values[numbers[0]])]
         error = unit.scale * settled(dataset, column(dataset, "output_error")[:, numbers])
+        if not np.isfinite(error).all():
+            continue
         time = settled(dataset, column(dataset, "time"))
         angles = 2.0 * np.pi * np.arange(len(numbers)) / len(numbers)
         ends = error.min(axis=0), error.max(axis=0), over_time(error, time)
