@@ -114,7 +114,9 @@ def draw_copies(dataset: xr.Dataset) -> Figure:
         axes.set_theta_direction(-1)
         shown = np.unique(np.linspace(0, n - 1, min(n, 12)).astype(int))
         axes.set_xticks(one.angles[shown], [f"{one.name}[{k + 1}]" for k in shown], size=style.SMALL)
+        axes.tick_params(axis="x", pad=12.0)
         axes.tick_params(axis="y", labelsize=style.SMALL)
+        axes.set_rlabel_position(180.0 / n)  # between the first two
         axes.set_xlabel(f"error [{one.unit}]", size=style.SMALL)
     style.legend_below(figure, every[0], 3)
     return figure
