@@ -294,13 +294,13 @@ class BuildRuns:
         case, n, output = self._case, self.of_build, self._output
         times = f"{', '.join(map(repr, self._instants))} s"
         whole = self._equal().replace({f"outputs.{output}.at.times": times})
-        columns = {}
+        columns: dict[str, FloatArray] = {}
         for one, values in zip(case.scattered.values(), self._columns.values(), strict=True):
-            kind, name, rest = one.key.split(".", 2)
-            for copy in range(n):
-                of_copy = varied_key(whole, f"{kind}.{name}[{copy + 1}].{rest}")
-                columns[of_copy] = tuple(values[copy : self._coupled * n : n])
-        found = self._computed(whole, Axis(POINT, columns), "together", means, watcher)
+            of_builds = np.reshape(values[: self._coupled * n], (-1, n)).T
+            for copy, own in enumerate(of_builds, 1):
+                case.pattern[one.pattern].add_copy(one.key, copy, own, whole.at, columns)
+        axis = Axis(POINT, {varied_key(whole, path): tuple(own.tolist()) for path, own in columns.items()})
+        found = self._computed(whole, axis, "together", means, watcher)
         errors = [[self._errors(one, f"{output}[{copy + 1}]") for copy in range(n)] for one in found]
         return numbers_of_builds(np.array(errors))
 

@@ -12,9 +12,11 @@ from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanisms.catalogue import parse_case
+from tribodyn.simulation import simulate
 from tribodyn.studies import builds
-from tribodyn.studies.builds import LEVELS, Copies, draw, numbers_of_builds
+from tribodyn.studies.builds import LEVELS, BuildRuns, Copies, draw, numbers_of_builds
 from tribodyn.studies.sampling import SAMPLERS
+from tribodyn.studies.sweep import SILENT, Means
 
 N: Final = 40
 TEXT: Final = TEMPLATES["vsv-ring"].text.replace('elastic = "beam"\n', "")
@@ -123,3 +125,19 @@ def test_copies_alone_are_those_of_the_ring_that_holds_them(tmp_path: Path) -> N
         assert one.together == pytest.approx(one.same, rel=0.2)
     again = builds(case, copies=12, draws=500, coupled=2, directory=tmp_path, workers=0)
     assert again.numbers[0].quantiles.tolist() == found.numbers[0].quantiles.tolist()
+
+
+def test_ways_of_builds_turn_with_their_copies(tmp_path: Path) -> None:
+    """A build as a whole is the case whose copies scatter by the values of its copies."""
+    law = 'distribution = "normal"\narguments = ["20 um", "4 um"]'
+    hole = TEXT.replace(".clearance.radial", ".deviation.x").replace(law, 'values = ["1 um", "9 um", "4 um"]')
+    given = {"run.duration": "0.1 s", "run.output_interval": "20 ms", "pattern.vanes.count": 3}
+    runs = BuildRuns(parse_case(hole, "test").replace(given), 3, 1, 0, tmp_path)
+    [together] = runs.together(Means(0, keep_results=False), SILENT)
+    [values] = runs._columns.values()
+    assert sorted(values) == [1e-6, 4e-6, 9e-6]
+    listed = ", ".join(f'"{1e6 * value:.0f} um"' for value in values)
+    whole = parse_case(hole.replace('"1 um", "9 um", "4 um"', listed), "test").replace(given)
+    error = simulate(whole)["output_error"]
+    at = error.interp(time=runs._instants).values.T
+    assert together == pytest.approx(np.degrees(numbers_of_builds(at[None])[0]), rel=1e-2)

@@ -7,9 +7,9 @@ joint are repeated with it. Points and directions move with the copies; the firs
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from statistics import NormalDist
-from typing import ClassVar, Final, Literal, TypeAlias
+from typing import Any, ClassVar, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -103,6 +103,22 @@ class PatternKeys(NamedGroup):
     def as_first(self, copy: int, direction: Sequence[float]) -> tuple[float, ...]:
         """Return a direction of a copy as the first copy has it."""
         return tuple(dense.product(np.array(direction), self._turned(copy)[0]).tolist())
+
+    def add_copy(
+        self, key: str, copy: int, own: FloatArray, at: Callable[[str], Any], columns: dict[str, FloatArray]
+    ) -> None:
+        """Add values of a key at a copy to those by path; those of a component turn with the copy.
+
+        ``at`` returns the value of a path where all copies are equal.
+        """
+        path, axis = _component(key)
+        if axis is None:
+            columns[_of_copy(path, copy)] = own
+            return
+        change, held = own - at(_of_copy(path, 1))[axis], at(_of_copy(path, copy))
+        for letter, part, value in zip("xyz", self.directed(copy, np.eye(3)[axis]), held, strict=True):
+            name = f"{_of_copy(path, copy)}.{letter}"
+            columns[name] = columns.get(name, value) + part * change
 
     def _turned(self, copy: int) -> tuple[FloatArray, FloatArray]:
         """Return the matrix of rotation and the way of a copy; the first one stays exactly where it is."""
