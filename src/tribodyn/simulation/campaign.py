@@ -115,27 +115,10 @@ def run_campaign(
 ) -> tuple[Campaign, Cycle]:
     """Run a campaign to its end, or to a cycle that fails.
 
-    Parameters
-    ----------
-    system
-        What wears.
-    plan
-        What is asked.
-    resumed
-        Where an earlier run of the same campaign was; from the beginning by default.
-    keep
-        Called after every jump with what the campaign continues from.
-
-    Returns
-    -------
-    worn, cycle
-        The bushing at the end, and the cycle simulated with it. If the caller stopped the campaign between
-        two cycles, the last one simulated, with that as its failure.
-
-    Raises
-    ------
-    Stopped
-        If the caller stopped the campaign before a cycle was simulated.
+    Return the bushing at the end, and the cycle simulated with it; if the caller stopped the campaign between
+    two cycles, the last one simulated, with that as its failure. Raises ``Stopped`` if that was before a
+    cycle was simulated. ``resumed``: where an earlier run of the same campaign was, None for the beginning;
+    ``keep``: called after every jump with what the campaign continues from.
     """
     worn, cycle = (resumed, None) if resumed is not None else _settled(system, plan)
     while cycle is None or cycle.failure is None:

@@ -168,12 +168,30 @@ def sweep(
 def run(
     plan: SweepPlan, directory: Path | None, means: Means = Means(), watcher: Watcher = Watcher()
 ) -> xr.Dataset:
-    """Compute the missing points of a plan and merge all of it, see :func:`tribodyn.studies.archive.merge`.
+    """Compute the missing points of a plan and merge all of it.
 
-    ``directory``: where runs are kept; those that are there already are not computed again, and None keeps
-    nothing; ``watcher``: is called as points arrive, and may end the sweep. Raises InputError if a number of
-    workers or a scheduler is not valid, or the folder holds another sweep, and TribodynError if the workers
-    ended; points that had arrived are merged and kept.
+    Parameters
+    ----------
+    plan
+        From :func:`~tribodyn.studies.plan.make_plan`.
+    directory
+        Where runs are kept; those that are there already are not computed again. None keeps nothing.
+    means
+        The processes that compute.
+    watcher
+        Is called as points arrive, and may end the sweep.
+
+    Returns
+    -------
+    xarray.Dataset
+        See :func:`tribodyn.studies.archive.merge`.
+
+    Raises
+    ------
+    InputError
+        A number of workers or a scheduler is not valid, or the folder holds another sweep.
+    TribodynError
+        The workers ended; points that had arrived are merged and kept.
     """
     if means.workers is not None and means.workers < 0:
         raise InputError(f"given {means.workers}; allowed: 0 or more", key="--workers")

@@ -51,26 +51,12 @@ def compute(
 ) -> list[PointOutcome]:
     """Simulate a case with some changes after the other, in one call of a worker.
 
-    Parameters
-    ----------
-    case
-        The case that all begin from.
-    changes
-        Of each point, by dotted path.
-    made_by
-        Version of tribodyn that planned it; another one does not compute it.
-    keep_result
-        Whether the whole result is returned beside the key results.
-    staging
-        Path beside which it is left as a file, on a machine whose disk the caller sees: bytes of a worker go
-        through two processes before they are written. Where that fails, the result is returned all the same.
-    stop
-        As for :func:`tribodyn.simulation.simulate`.
-
-    Returns
-    -------
-    list of PointOutcome
-        A point that fails is an outcome too: no exception leaves this function but those that end processes.
+    A point that fails is an outcome too: no exception leaves this function but those that end processes.
+    ``changes``: of each point, by dotted path; ``made_by``: version of tribodyn that planned it, another one
+    does not compute it; ``keep_result``: whether the whole result is returned beside the key results;
+    ``staging``: path beside which it is left as a file, on a machine whose disk the caller sees: bytes of a
+    worker go through two processes before they are written, and where that fails, the result is returned all
+    the same; ``stop``: as for :func:`tribodyn.simulation.simulate`.
     """
     own = version("tribodyn")
     if own != made_by:
