@@ -80,7 +80,7 @@ def _client(address: str, security: Security | None) -> Iterator[Client]:
 
     with _quiet():
         try:
-            client = Client(address, timeout=_PATIENCE, security=security)
+            client = Client(address, timeout=_PATIENCE, security=security, set_as_default=False)
         except (OSError, ValueError, ImportError, TypeError) as error:
             raise InputError(
                 f'given "{address}": no scheduler answers there ({error}); allowed: the address that '
