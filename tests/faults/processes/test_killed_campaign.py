@@ -138,7 +138,9 @@ def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         changed(wear__cycles=4000, wear__jump_limit=0.02, wear__jump_depth=0.05),
         random.Random(50),
     )
+    began = time.monotonic()
     undisturbed = left_alone(changes, tmp_path / "undisturbed")
+    longest = (time.monotonic() - began) / 50  # so that all pauses take half of it, however fast it is
     assert undisturbed.sizes["jump"] > 60
     kills = 0
     while kills < 50:
@@ -146,7 +148,7 @@ def test_killed_fifty_times_it_ends_as_one_left_alone(tmp_path: Path) -> None:
         process = begin(changes, tmp_path)
         if kills % 5:  # else it may be killed before it has done anything
             wait_for_a_jump(process, tmp_path, before)
-        pause(chance, 1.0)
+        pause(chance, longest)
         assert end(process), "the campaign was over before it was killed often enough"
         kills += 1
     assert begin(changes, tmp_path).wait(timeout=900) == 0
