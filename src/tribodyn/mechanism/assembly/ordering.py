@@ -195,8 +195,8 @@ def make_pattern(
     """
     steps, n_nodes = _Operations(block_of, sizes), len(sizes)
     later = _later(order, block_of)
-    new = steps.pack(_groups(_crowd(order, later, inverted or 0), sizes))
-    if new:
+    if crowd := _crowd(order, later, inverted or 0):
+        new = steps.pack(_groups(crowd, sizes))
         order = [*(k for k in order if k not in new), *range(n_nodes, len(steps.sizes))]
         later = _later(order, {(new.get(a, a), new.get(b, b)) for a, b in block_of if {a, b} <= later.keys()})
     place = {node: i for i, node in enumerate(order)}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _COPY: Final = re.compile(r"(.+)\[\d+\]")
-_OF_COPY: Final = re.compile(r"([^[]+)\[(?P<copy>\d+)\](\.[^:[]+)")  #: Path of a key of a copy.
+_OF_COPY: Final = re.compile(r"([^[]+)\[(\d+)\](\.[^:[]+)")  #: Path of a key of a copy.
 _SAME: Final = 1e-9  #: Relative difference of values that are the same.
 
 
@@ -110,7 +110,7 @@ def _differing(case: MechanismCase) -> dict[str, FloatArray]:
             if isinstance(value, float):
                 found.setdefault(match[1] + match[3], []).append(value)
             elif match[3] == ".deviation" and isinstance(value, tuple):
-                name, copy = path.split(".")[1], int(match["copy"])
+                name, copy = path.split(".")[1], int(match[2])
                 bodies = [body.partition("[")[0] for body in case.joints[name].between]
                 own = next(one for one in case.pattern.values() if set(bodies) & set(one.bodies))
                 way = own.as_first(copy, value)  # type: ignore[arg-type]
