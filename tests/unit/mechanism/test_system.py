@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from tests.unit.mechanism.slider_crank import IDEAL, parsed
+from tests.unit.mechanism.slider_crank import FILE, IDEAL, parsed
 
 import tribodyn as td
+from mebdf.arrays import FloatArray
 from tribodyn.cases.case import with_entries
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.assembly.closing import System
 from tribodyn.mechanism.builder.mechanism_builder import Mechanism
 from tribodyn.mechanisms import results
 from tribodyn.mechanisms.bushing import bushing_of
@@ -230,3 +232,23 @@ def test_a_clearance_may_be_kept_for_later() -> None:
     result = td.simulate(bob(ideal=True).case())
     assert "surface" not in result.dims
     assert float(abs(result["displacement"]).max()) < 1e-12
+
+
+def test_a_kinematic_analysis_inverts_the_constraints_once_at_each_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Velocity ratios and errors by superposition follow from the same inverse."""
+    inverted = []
+
+    def inverse(system: System, scaled: FloatArray, rows: FloatArray | None = None) -> FloatArray:
+        inverted.append(system)
+        return plainly(system, scaled, rows)
+
+    plainly = System.inverse
+    case = parsed(FILE.replace("[run]", '[outputs.way]\nbody = "slider"\nalong = [1, 0, 0]\n[run]'))
+    monkeypatch.setattr(System, "inverse", inverse)
+    result = td.simulate(case.replace({"run.analysis": "kinematic", "run.output_interval": "1 ms"}))
+    assert np.isfinite(result["error_estimate"].values).any()
+    # The assembly is closed by a system of its own.
+    n_times = result.sizes["time"]
+    assert sum(one is inverted[-1] for one in inverted) == n_times <= len(inverted) < 2 * n_times

@@ -8,7 +8,7 @@ matrix M, the constraints G and the forces Q at that state, accelerations a and 
 so that reactions and drive efforts are those that the prescribed motion needs.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
@@ -16,10 +16,9 @@ from mebdf.arrays import FloatArray
 from tribodyn.core.errors import InputError, IntegrationFailure
 from tribodyn.core.problem import Problem, Solution
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism, in_body_axes, unreached
-from tribodyn.mechanism.analyses.superposition import responses
+from tribodyn.mechanism.analyses.superposition import Asked
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.closing import System
-from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.assembly.positions import DrivePath, walked
 
 
@@ -67,15 +66,11 @@ def follow_drives(
     return walked(problem, DrivePath(times), known, picture_times, progress)
 
 
-def velocity_ratios(assembly: Assembly, outputs: Sequence[Output], times: FloatArray) -> FloatArray:
-    """Return the rates of outputs for a unit rate of each drive, the others at rest.
-
-    ``outputs``: of it; ``times``: rising, from 0 [s], shape (n_t,). Returns in the units of output and drive,
-    shape (n_t, n_outputs, n_drives); NaN where joints do not close.
-    """
-    mechanism = IdealMechanism(assembly)
-    rows = mechanism.system.drive_rows()
-    unit_rates = np.zeros((len(mechanism.system.rows), len(rows)))
+def of_drives(mechanism: IdealMechanism) -> Asked:
+    """Return a unit rate of each drive, the others at rest, at any position, shape (n_rows, n_drives)."""
+    system = mechanism.system
+    rows = system.drive_rows()
+    unit_rates = np.zeros((len(system.rows), len(rows)))
     for drive, (k, m, _) in enumerate(rows):
-        unit_rates[mechanism.system.rows.index((k, m)), drive] = assembly.model.joint(k).sign
-    return responses(mechanism, outputs, times, lambda position: unit_rates)
+        unit_rates[system.rows.index((k, m)), drive] = system.model.joint(k).sign
+    return lambda position: unit_rates

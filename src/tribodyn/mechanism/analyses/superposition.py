@@ -21,7 +21,7 @@ Surfaces are smooth and rigid here: roughness, which holds them apart, is left o
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -36,6 +36,8 @@ from tribodyn.mechanism.assembly.output_values import Output
 #: Parts of the error of a joint; the last one is that of the pieces of elastic bodies.
 CAUSES: Final = ("clearance", "tilt", "friction", "bending")
 _NOTHING: Final = 1.0e-9  #: Force over the largest one that counts as zero.
+#: Returns rates of the constraints at the position with a number, shape (n_rows, m).
+Asked: TypeAlias = Callable[[int], FloatArray]
 
 
 @dataclass(frozen=True)
@@ -100,12 +102,17 @@ def superposed(
     [s], shape (n_t,); ``displaced``: displacement and rotation of the shaft by the numbers of joints, shape
     (n_t, n_causes, 6) each. Returns in the units of the outputs, shape (n_t, n_outputs, n_joints, n_causes).
     """
+    (found,) = responses(mechanism, outputs, times, missing(mechanism, displaced))
+    return found.reshape(times.size, len(outputs), len(displaced), -1)
+
+
+def missing(mechanism: IdealMechanism, displaced: Mapping[int, FloatArray]) -> Asked:
+    """Return by how much rows miss for each joint and cause, shape (n_rows, n_joints n_causes)."""
     system = mechanism.system
     rows = {k: [i for i, (number, _) in enumerate(system.rows) if number == k] for k in displaced}
     n_causes = next(iter(displaced.values())).shape[1]
 
     def missed(position: int) -> FloatArray:
-        """Return by how much rows miss for each joint and cause, shape (n_rows, n_joints n_causes)."""
         found = np.zeros((len(system.rows), n_causes * len(displaced)))
         for place, k in enumerate(displaced):
             normals = system.now.couplings["N"][k][: len(rows[k])]
@@ -113,39 +120,40 @@ def superposed(
             found[rows[k], columns] = normals @ displaced[k][position].T
         return found
 
-    found = responses(mechanism, outputs, times, missed)
-    return found.reshape(times.size, len(outputs), len(displaced), n_causes)
+    return missed
 
 
 def responses(
-    mechanism: IdealMechanism,
-    outputs: Sequence[Output],
-    times: FloatArray,
-    asked: Callable[[int], FloatArray],
-) -> FloatArray:
-    """Return the rates of outputs for given rates of the constraints.
+    mechanism: IdealMechanism, outputs: Sequence[Output], times: FloatArray, *asked: Asked
+) -> list[FloatArray]:
+    """Return the rates of outputs for given rates of the constraints, of each that is asked for.
 
-    ``mechanism``: the ideal mechanism; while ``asked`` is called its bodies are at that position;
-    ``outputs``: to be evaluated; ``times``: rising, from 0 [s], shape (n_t,); ``asked``: returns the rates at
-    the position with a number, shape (n_rows, m). Returns shape (n_t, n_outputs, m); NaN from where joints do
-    not close.
+    ``mechanism``: the ideal mechanism; while rates are asked for its bodies are at that position;
+    ``outputs``: to be evaluated; ``times``: rising, from 0 [s], shape (n_t,); ``asked``: of m rates each.
+    Returns shapes (n_t, n_outputs, m); NaN from where joints do not close.
     """
     states, system = mechanism.follow(times), mechanism.system
-    moved: list[FloatArray] = []
+    moved: list[list[FloatArray]] = [[] for _ in asked]
     for i, state in enumerate(states):
         mechanism.put(times[i], state)
         scaled, root, length = system.scaled()
-        velocities = root @ (system.inverse(scaled) @ (asked(i) / length[:, None]))
-        moved.append(np.tile(state, (velocities.shape[1], 1)))
-        for place, velocity in enumerate(velocities.T):
-            parts = velocity.reshape(-1, 6)
-            system.now.bodies.v[:-1], system.now.bodies.w[:-1] = parts[:, :3], parts[:, 3:]
-            collect(system.now.bodies, moved[-1][place])
-    all_moved = np.array(moved)
-    found = np.full((times.size, len(outputs), all_moved.shape[1]), np.nan)
-    for place in range(all_moved.shape[1]):
-        motion = motion_of(in_global_axes(np.ascontiguousarray(all_moved[:, place])))
-        found[: len(states), :, place] = np.stack([output.rate(motion) for output in outputs], axis=1)
+        inverse = system.inverse(scaled)
+        for rates, own in zip([one(i) for one in asked], moved, strict=True):
+            velocities = root @ (inverse @ (rates / length[:, None]))
+            own.append(np.tile(state, (velocities.shape[1], 1)))
+            for place, velocity in enumerate(velocities.T):
+                parts = velocity.reshape(-1, 6)
+                system.now.bodies.v[:-1], system.now.bodies.w[:-1] = parts[:, :3], parts[:, 3:]
+                collect(system.now.bodies, own[-1][place])
+    return [_rates(np.array(own), outputs, times.size) for own in moved]
+
+
+def _rates(moved: FloatArray, outputs: Sequence[Output], n_times: int) -> FloatArray:
+    """Return the rates of outputs in states (n, m, 13 n_bodies), shape (n_times, n_outputs, m)."""
+    found = np.full((n_times, len(outputs), moved.shape[1]), np.nan)
+    for place in range(moved.shape[1]):
+        motion = motion_of(in_global_axes(np.ascontiguousarray(moved[:, place])))
+        found[: len(moved), :, place] = np.stack([output.rate(motion) for output in outputs], axis=1)
     return found
 
 

@@ -11,8 +11,8 @@ from tribodyn.joints.clearances import Place
 from tribodyn.joints.shapes import Mesh
 from tribodyn.kernels import dense
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
-from tribodyn.mechanism.analyses.kinematics import velocity_ratios
-from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, superposed
+from tribodyn.mechanism.analyses.kinematics import of_drives
+from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, missing, responses, superposed
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.assembly.parts_by_number import model_of
@@ -49,10 +49,13 @@ def kinematic_columns(
         reactions = np.hstack([couplings["reaction_force"][:, k], couplings["reaction_moment"][:, k]])
         real[k] = np.zeros((times.size, len(CAUSES), 6))
         real[k][:, CAUSES.index("bending")] = -dense.product(reactions, flexibility(case.joints[name]))
-    if real:
-        estimate[:, :, list(real)] = superposed(IdealMechanism(assembly), outputs, times, real)
+    mechanism = IdealMechanism(assembly)
+    asked = [of_drives(mechanism), *([missing(mechanism, real)] if real else [])]
+    ratios, *errors = responses(mechanism, outputs, times, *asked)
+    for found in errors:
+        estimate[:, :, list(real)] = found.reshape(times.size, len(outputs), len(real), -1)
     estimate[:, ~np.array([output.has_displacement for output in outputs])] = np.nan
-    return {"output_ratio": velocity_ratios(assembly, outputs, times), "error_estimate": estimate}
+    return {"output_ratio": ratios, "error_estimate": estimate}
 
 
 def instant_errors(
