@@ -464,7 +464,7 @@ def beside(model: type[Case], kept: Mapping[str, Entry], new: Mapping[str, Entry
     keys = keys_at(model, [*kept, *new])
     kept, new = plain_entries(kept, keys), plain_entries(new, keys)
     pairs = _alternatives(model, keys)
-    taken = {path for pair in pairs if not new.keys().isdisjoint(pair) for path in pair}
+    taken = {path for pair in pairs if pair[0] in new or pair[1] in new for path in pair}
     return {path: entry for path, entry in kept.items() if path not in taken} | dict(new)
 
 

@@ -8,7 +8,7 @@ import importlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property, lru_cache
 from types import NoneType, UnionType
 from typing import Literal, Self, TypeAlias, Union, get_args, get_origin
 
@@ -77,14 +77,16 @@ class Key:
         """Return the same key at another dotted path; large cases have some ten thousand keys."""
         made = object.__new__(type(self))
         made.__dict__.update(self.__dict__, path=path)
+        for of_path in ("table", "name"):
+            made.__dict__.pop(of_path, None)
         return made
 
-    @property
+    @cached_property
     def table(self) -> str:
         """Dotted path of the table that the key stands in; empty at the top."""
         return self.path.rpartition(".")[0]
 
-    @property
+    @cached_property
     def name(self) -> str:
         """Name of the key inside its table."""
         return self.path.rpartition(".")[2]
@@ -123,7 +125,7 @@ class Key:
             Whether numbers and switches may also be spelled as text (command line).
         """
         if self.kind in LISTS:
-            return self._read_list(value)
+            return _read_text(self, value) if isinstance(value, str) else self._read_list(value)
         if self.kind == "quantity":
             return self._read_quantity(value)
         if text and isinstance(value, str):
@@ -190,6 +192,12 @@ class Key:
         else:
             texts = [toml_string(v) if isinstance(v, str) else repr(v).removesuffix(".0") for v in values]
         return f"[{', '.join(texts)}]"
+
+
+# Cases of a sweep have the same tables of numbers.
+@lru_cache(maxsize=256)
+def _read_text(key: Key, text: str) -> tuple[float, ...] | tuple[str, ...]:
+    return key._read_list(text)
 
 
 @cache

@@ -33,6 +33,8 @@ SIZES: Final = {
     "meter": {"cm": "0.01", "m": "1", "mm": "0.001", "nm": "1E-9", "um": "0.000001"},
     "meter ** 2": {"cm^2": "0.0001", "m^2": "1", "mm^2": "0.000001"},
     "meter ** 3": {"m^3": "1", "mm^3": "1E-9"},
+    "meter ** 4": {"m^4": "1", "mm^4": "1E-12"},
+    "kilogram * meter ** 3 / second ** 2": {"N m^2": "1"},
     "radian": {"deg": "0.01745329251994329576923690768", "mrad": "0.001", "rad": "1"},
     "radian / second": {
         "deg/s": "0.01745329251994329576923690768",
@@ -47,6 +49,7 @@ SIZES: Final = {
     "meter / second": {"m/s": "1", "mm/s": "0.001", "um/s": "0.000001"},
     "meter / second ** 2": {"m/s^2": "1"},
     "meter * second ** 2 / kilogram": {"m^2/N": "1", "mm^3/(N m)": "1E-9", "mm^3/N/m": "1E-9"},
+    "1 / second": {"Hz": "1"},
     "dimensionless": {"percent": "0.01"},
     "second / meter": {"s/m": "1"},
 }

@@ -35,7 +35,7 @@ class Scope:
     units: Mapping[str, str] = field(default_factory=dict)  #: In which they are shown.
     refused: Collection[str] = ()  #: Names of those that have no value.
 
-    def keys(self, declared: Mapping[str, Key]) -> dict[str, Key]:
+    def keys(self, declared: Mapping[str, Key]) -> Mapping[str, Key]:
         """Return the keys of the parameters, each with the unit of its value."""
         return keys_with_units(declared, self.units)
 
@@ -45,8 +45,10 @@ def path_of(name: str) -> str:
     return f"{TABLE}.{name}.value"
 
 
-def keys_with_units(keys: Mapping[str, Key], units: Mapping[str, str]) -> dict[str, Key]:
+def keys_with_units(keys: Mapping[str, Key], units: Mapping[str, str]) -> Mapping[str, Key]:
     """Return keys of which those of parameters have their units; none for a plain number."""
+    if not units:
+        return keys
     found = dict(keys)
     for name, unit in units.items():
         if path_of(name) in keys:

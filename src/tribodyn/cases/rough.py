@@ -211,7 +211,7 @@ class _Used:
 
 
 def _used(
-    case: Case, keys: dict[str, Key], surface: str, prefix: str, beside: Mapping[str, Sequence[str]]
+    case: Case, keys: Mapping[str, Key], surface: str, prefix: str, beside: Mapping[str, Sequence[str]]
 ) -> Iterator[_Used]:
     name = case.at(f"{prefix}surfaces.{surface}.{MATERIAL}")
     if name is None:
@@ -224,7 +224,7 @@ def _used(
             yield _Used(keys[path], case.at(path), str(name), known, warmth(there, surface))
 
 
-def _of_asperities(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
+def _of_asperities(case: Case, keys: Mapping[str, Key], prefix: str) -> Iterator[str]:
     rough = [f"{prefix}surfaces.{surface}.roughness" for surface in SURFACES]
     left = [f"{prefix}asperities.{name}" for name in ("density", "radius")]
     if not _as_built_in(case, keys, rough) and _left(case, keys, left):
@@ -234,7 +234,7 @@ def _of_asperities(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[st
         )
 
 
-def _of_wear(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
+def _of_wear(case: Case, keys: Mapping[str, Key], prefix: str) -> Iterator[str]:
     surface, rate = f"{prefix}surfaces.bushing", f"{prefix}{_WEAR}"
     bushing = [f"{surface}.{name}" for name in ("young_modulus", "poisson_ratio", "hardness")]
     if rate not in keys or case.at(f"{surface}.{MATERIAL}") is not None:
@@ -254,7 +254,7 @@ def _of_heights(case: Case, prefix: str) -> Iterator[str]:
             )
 
 
-def _of_law(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
+def _of_law(case: Case, keys: Mapping[str, Key], prefix: str) -> Iterator[str]:
     """Yield the parameters of other contact laws that were given values without an effect."""
     from tribodyn.contact import LAWS, options_of_others
 
@@ -265,10 +265,10 @@ def _of_law(case: Case, keys: dict[str, Key], prefix: str) -> Iterator[str]:
             yield f"{path} has no effect with the law {law}: it is a parameter of other laws."
 
 
-def _left(case: Case, keys: dict[str, Key], paths: list[str]) -> bool:
+def _left(case: Case, keys: Mapping[str, Key], paths: list[str]) -> bool:
     """Tell whether keys hold what they do by default, and nobody wrote that down."""
     return _as_built_in(case, keys, paths) and all(case.given(path) is None for path in paths)
 
 
-def _as_built_in(case: Case, keys: dict[str, Key], paths: list[str]) -> bool:
+def _as_built_in(case: Case, keys: Mapping[str, Key], paths: list[str]) -> bool:
     return all(case.at(path) == keys[path].default for path in paths)

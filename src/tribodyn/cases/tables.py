@@ -67,12 +67,12 @@ def expanded(declared: Mapping[str, Key], paths: Iterable[str]) -> dict[str, Key
     return found
 
 
-def keys_in(case: BaseModel) -> dict[str, Key]:
+def keys_in(case: BaseModel) -> Mapping[str, Key]:
     """Return every key of a case, by dotted path, with those of the tables that it names or was given."""
     declared = keys_of(type(case))
     if not any(ANY_NAME in path for path in declared):
         return declared
-    there = keys_at(type(case), [*_paths(case.model_dump()), *(getattr(case, "_written", None) or {})])
+    there = keys_at(type(case), [*_paths(case), *(getattr(case, "_written", None) or {})])
     return keys_with_units(there, getattr(case, "_units", None) or {})
 
 
@@ -204,11 +204,15 @@ def _before_name(path: str) -> str | None:
     return before if name else None
 
 
-def _paths(values: Mapping[str, Any], prefix: str = "") -> list[str]:
+def _paths(values: BaseModel | Mapping[str, Any], prefix: str = "") -> list[str]:
     """Return the dotted paths of all values."""
     found: list[str] = []
-    for name, value in values.items():
-        found += _paths(value, f"{prefix}{name}.") if isinstance(value, dict) else [prefix + name]
+    for name in type(values).model_fields if isinstance(values, BaseModel) else values:
+        value = values[name] if isinstance(values, dict) else getattr(values, name)
+        if isinstance(value, BaseModel | dict):
+            found += _paths(value, f"{prefix}{name}.")
+        else:
+            found.append(prefix + name)
     return found
 
 

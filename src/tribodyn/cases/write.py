@@ -40,7 +40,7 @@ def to_toml(
         table: [
             line
             for key in inside
-            for value in [None if key.path in idle else value_at(group, key.name)]
+            for value in [None if key.path in idle else getattr(group, key.name)]
             for line in _lines(value, key, linked.get(key.path), own, origins, comments)
         ]
         for table, inside in groupby(keys_in(case).values(), key=lambda key: key.table)

@@ -6,9 +6,21 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tribodyn.cases.keys import keys_of
 from tribodyn.cases.known_units import SIZES, ZEROS
 from tribodyn.cases.other_units import looked_up
-from tribodyn.cases.units import UnitProblem, dimension, from_si, rms_roughness, si_unit, to_si
+from tribodyn.cases.units import (
+    _DIMENSIONS,
+    _KNOWN,
+    UnitProblem,
+    dimension,
+    from_si,
+    rms_roughness,
+    si_unit,
+    to_si,
+)
+from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 
 UNITS = ("um", "mm", "m", "deg", "rad", "GPa", "N m", "deg/s", "1/um^2", "m^2/N", "kg m^2", "ms", "um/s")
 
@@ -149,6 +161,12 @@ def test_micrometres_are_the_float_a_person_expects() -> None:
 def test_what_is_known_by_heart_is_what_pint_says(base: str, unit: str) -> None:
     size, zero, units = looked_up(unit)
     assert (size, zero, units) == (Decimal(SIZES[base][unit]), Decimal(ZEROS.get(unit, "0")), base)
+
+
+def test_the_units_of_all_keys_are_known_without_pint() -> None:
+    """A case with one of the others loads pint, which takes longer than to read and write it."""
+    keys = {**keys_of(MechanismCase), **keys_of(VsvCase)}
+    assert {key.unit for key in keys.values()} - {""} | set(_DIMENSIONS) <= set(_KNOWN)
 
 
 def test_a_unit_that_no_key_has_yet_is_its_own() -> None:
