@@ -66,7 +66,11 @@ def rows_of(surfaces: Sequence[tuple[Rows, int]], nodes: FloatArray) -> Rows:
 def _check_rings(rows: Rows, count: int, nodes: FloatArray) -> None:
     """Refuse rows of ``count`` of the nodes that kernels would take for rings."""
     cos, sin, _ = _ring(count)
-    here = nodes[:, rows["first"][:, None] + np.arange(count)]
+    first = rows["first"]
+    if np.all(np.diff(first) == count):  # one behind the other, as of most surfaces
+        here = nodes[:, first[0] : first[-1] + count].reshape(len(nodes), first.size, count)
+    else:
+        here = nodes[:, first[:, None] + np.arange(count)]
     radius, _, height = here[kernel.POSITION : kernel.POSITION + 3, :, :1]
     radial, _, axial = rows["normal"].T[:, :, None]
     expected = (radius * cos, radius * sin, height, radial * cos, radial * sin, axial)

@@ -13,7 +13,7 @@ from mebdf.arrays import FloatArray
 from tribodyn.kernels import dense
 from tribodyn.mechanisms.mechanism_protocol import ByPart, plain
 from tribodyn.mechanisms.output_keys import Instant
-from tribodyn.results.reading import column, entries, number_in, peak, settled, sustained
+from tribodyn.results.reading import column, entries, number_in, once, peak, settled, sustained
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import ERROR_UNITS
 
@@ -231,16 +231,21 @@ _PASSES: Final = {
 }
 
 
+def _instants(dataset: xr.Dataset) -> dict[str, tuple[int, str]]:
+    """Return number and unit of the error of each instant by its name."""
+    units, names = entries(dataset, "output_unit"), entries(dataset, "instant")
+    outputs = (number_of(dataset, str(one)) for one in entries(dataset, "instant_output"))
+    return {str(name): (k, str(units[at])) for k, (name, at) in enumerate(zip(names, outputs, strict=True))}
+
+
 def _at(variable: str, unit: str, instant: str) -> KeyResult:
     """Return the key result of an instant; NaN where its error has another unit or is not known."""
     label, meaning = _PASSES[variable]
     _, shown, scale = ERROR_UNITS[unit]
 
     def compute(dataset: xr.Dataset) -> float:
-        values, k = column(dataset, variable), number_in(dataset, "instant", instant)
-        output = number_of(dataset, str(entries(dataset, "instant_output")[k]))
-        of_unit = str(entries(dataset, "output_unit")[output]) == unit
-        return scale * float(values[k]) if of_unit else math.nan
+        k, own = once(dataset, "instants", partial(_instants, dataset))[instant]
+        return scale * float(column(dataset, variable)[k]) if own == unit else math.nan
 
     return KeyResult(f"Error {label}", shown, "Outputs", meaning, compute).of_part(instant)
 

@@ -36,7 +36,7 @@ def reading_once() -> Iterator[None]:
         _read.reset(token)
 
 
-def _once(dataset: xr.Dataset, what: object, read: Callable[[], _Value]) -> _Value:
+def once(dataset: xr.Dataset, what: object, read: Callable[[], _Value]) -> _Value:
     """Return a value read off a result, from an earlier time within :func:`reading_once`."""
     known = _read.get()
     if known is None:
@@ -54,12 +54,12 @@ def entries(dataset: xr.Dataset, name: str) -> NDArray[Any]:
     if variable.dims != (name,):
         return np.asarray(variable.values)
     # Of a dimension they are kept in its index, which returns them four times as fast.
-    return _once(dataset, name, lambda: np.asarray(variable.to_index()))
+    return once(dataset, name, lambda: np.asarray(variable.to_index()))
 
 
 def number_in(dataset: xr.Dataset, name: str, entry: str, spelled: Callable[[str], str] = str) -> int:
     """Return the number of the first entry of a dimension that is spelled so; an unknown one raises."""
-    names = _once(dataset, (name, spelled), lambda: [spelled(str(one)) for one in entries(dataset, name)])
+    names = once(dataset, (name, spelled), lambda: [spelled(str(one)) for one in entries(dataset, name)])
     return names.index(entry)
 
 
@@ -85,7 +85,7 @@ def of_part(
     def of_all() -> FloatArray:
         return np.ascontiguousarray(measure(column(dataset, name)).T)
 
-    return np.asarray(_once(dataset, (name, measure), of_all)[part])
+    return np.asarray(once(dataset, (name, measure), of_all)[part])
 
 
 def norm(dataset: xr.Dataset, *names: str) -> FloatArray:
