@@ -8,7 +8,16 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.options import FIGURES, add_case_arguments, chosen_case, kept_runs, typed, without_quotes
+from tribodyn.cli.options import (
+    FIGURES,
+    add_case_arguments,
+    changes,
+    chosen_case,
+    kept_runs,
+    typed,
+    without_quotes,
+)
+from tribodyn.core import fork_server
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -49,6 +58,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(args: Namespace) -> int:
     """Simulate copies, draw builds, and print their numbers."""
+    if args.workers != 0:
+        # It imports and loads while this process does, and simulates equal copies.
+        fork_server.start(name=args.case, changes=changes(args))
     from tribodyn.studies import Watcher, builds
 
     for option, least in (("copies", 2), ("draws", 100), ("coupled", 0), ("seed", 0)):
