@@ -27,7 +27,7 @@ from tribodyn.cases.columns import with_tables_read
 from tribodyn.cases.fields import Entry, Vector, quantity, read_entry, tables, text
 from tribodyn.cases.keys import Key, Value, family_names, keys_of
 from tribodyn.cases.messages import CROSS_CHECK, Asked, Disagreement, Remarks, located, problems, unknown
-from tribodyn.cases.parameters import read_all, scope_of, unused_parameters
+from tribodyn.cases.parameters import keys_with_units, read_all, scope_of, unused_parameters
 from tribodyn.cases.scans import with_meshes_read
 from tribodyn.cases.tables import (
     FROZEN,
@@ -338,7 +338,7 @@ def build(
         entries = with_tables_read(scans.with_scans_read(entries, keys), keys)
         entries = with_meshes_read(entries, keys)
     scope = scope_of(entries, faults)
-    keys = scope.keys(keys)
+    keys = keys_with_units(keys, scope.units)
     values, linked = read_all(entries, keys, scope, faults)
     if scope.refused:
         faults.raise_any()

@@ -91,7 +91,8 @@ def _nearest(path: str, keys: Mapping[str, Key]) -> str:
     if renamed:
         return _nearest_valid(renamed)
     words = [name] if inside else [name, table.rpartition(".")[2]]
-    named = (word for given in words for word in meanings(given) if f"{word}.{ANY_NAME}" in _tables_of(keys))
+    tables = {key.table for key in keys.values()}
+    named = (word for given in words for word in meanings(given) if f"{word}.{ANY_NAME}" in tables)
     if (first := next(named, None)) is not None:
         return f"write a table [{first}.NAME]"
     named_so = ([key.path for key in keys.values() if key.name == word] for word in (name, *meanings(name)))
@@ -126,10 +127,6 @@ def _renamed(path: str, keys: Mapping[str, Key]) -> str:
     near = difflib.get_close_matches(parts[0][:80], list(_inside("", keys)), n=1, cutoff=0.6)
     others += [".".join([*near, *parts[1:]])] if len(parts) > 1 else []
     return next((other for other in others if other in keys or as_declared(other, keys) in keys), "")
-
-
-def _tables_of(keys: Mapping[str, Key]) -> set[str]:
-    return {key.table for key in keys.values()}
 
 
 def _inside(table: str, keys: Mapping[str, Key]) -> dict[str, str]:
@@ -199,7 +196,8 @@ def _problem(found: ErrorDetails, asked: Asked) -> Iterator[InputError]:
         for fault in context["faults"]:
             yield located(InputError(fault.reason, key=f"{table}{fault.key or ''}"), asked)
     elif found["type"] == "missing":
-        inside = (entry.source for given, entry in asked.entries.items() if given.startswith(_table(path)))
+        table = path.rpartition(".")[0]
+        inside = (entry.source for given, entry in asked.entries.items() if given.startswith(table))
         where = next(inside, asked.source)
         reason = f"this key is missing; allowed: {asked.keys[path].allowed}"
         yield InputError(reason, key=path, source=where)
@@ -208,10 +206,6 @@ def _problem(found: ErrorDetails, asked: Asked) -> Iterator[InputError]:
         entry = asked.entries.get(path)
         given = entry or Entry(found["input"], asked.source)
         yield InputError(refused(key, given) if key else found["msg"], key=path, source=given.source)
-
-
-def _table(path: str) -> str:
-    return path.rpartition(".")[0]
 
 
 def located(error: InputError, asked: Asked) -> Disagreement:

@@ -35,10 +35,6 @@ class Scope:
     units: Mapping[str, str] = field(default_factory=dict)  #: In which they are shown.
     refused: Collection[str] = ()  #: Names of those that have no value.
 
-    def keys(self, declared: Mapping[str, Key]) -> Mapping[str, Key]:
-        """Return the keys of the parameters, each with the unit of its value."""
-        return keys_with_units(declared, self.units)
-
 
 def path_of(name: str) -> str:
     """Return the path of the key that holds a parameter."""

@@ -209,10 +209,8 @@ def _paths(values: BaseModel | Mapping[str, Any], prefix: str = "") -> list[str]
     found: list[str] = []
     for name in type(values).model_fields if isinstance(values, BaseModel) else values:
         value = values[name] if isinstance(values, dict) else getattr(values, name)
-        if isinstance(value, BaseModel | dict):
-            found += _paths(value, f"{prefix}{name}.")
-        else:
-            found.append(prefix + name)
+        inside = isinstance(value, BaseModel | dict)
+        found += _paths(value, f"{prefix}{name}.") if inside else [prefix + name]
     return found
 
 

@@ -191,7 +191,7 @@ def _written(value: float, unit: str, _sign: float) -> str:
         number = float(f"{in_unit:.{digits - 1}e}")
         # As to_si does it, but a rounded number may be too large here, which is no error.
         if scale.si(Decimal(repr(number))) == value:
-            return f"{_plain(number)} {unit}"
+            return f"{repr(number).removesuffix('.0')} {unit}"
     return f"{value!r} {si_unit(unit)}"
 
 
@@ -252,11 +252,6 @@ def likely_quantity(number: str, example: str, unit: str) -> str:
 def _apart(a: float, b: float) -> float:
     """Return the number of powers of e between the sizes of two numbers."""
     return abs(math.log(abs(a)) - math.log(abs(b)))
-
-
-def _plain(number: float) -> str:
-    """Write a float as a person would: no trailing ``.0``."""
-    return repr(number).removesuffix(".0")
 
 
 def _split(text: str) -> tuple[Decimal, str]:

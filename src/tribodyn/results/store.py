@@ -249,7 +249,8 @@ def read(path: str | Path, kinds: Kinds) -> xr.Dataset:
     file = file / RESULT if file.is_dir() else file
     try:
         dataset = dataset_of(read_regular(file, LARGEST))
-        dataset.attrs = {name: _python(value) for name, value in dataset.attrs.items()}
+        held = dataset.attrs.items()
+        dataset.attrs = {name: one.item() if isinstance(one, np.generic) else one for name, one in held}
         check(dataset, kinds)
     except FileNotFoundError as error:
         hint = f"run a case with `-o {brief(file.parent)}` first"
@@ -261,8 +262,3 @@ def read(path: str | Path, kinds: Kinds) -> xr.Dataset:
         text = f"cannot read the result in {brief(file)}; it is damaged or no result: {reason}"
         raise InputError(text) from error
     return dataset
-
-
-def _python(value: object) -> object:
-    """Return a number as Python holds it."""
-    return value.item() if isinstance(value, np.generic) else value

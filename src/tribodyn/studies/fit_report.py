@@ -210,7 +210,7 @@ def page(
 ) -> str:
     """Return the page of a fit."""
     lines = [
-        f"# Fit to {_files(calibration)}",
+        f"# Fit to {', '.join(one.file for one in calibration.experiments)}",
         "",
         f"{calibration.values.size} values, {len(calibration.known)} sets of values of the keys tried, "
         f"{'robust' if found.loss != 'linear' else 'plain'} least squares.",
@@ -277,7 +277,3 @@ def residuals_table(calibration: Calibration, found: LeastSquares) -> str:
             place = f"{time:.9g}" if curve else ""
             lines.append(f"{experiment.file},{part.name},{place},{one:.9g},{value:.9g},{missed:.4g}")
     return "\n".join(lines) + "\n"
-
-
-def _files(calibration: Calibration) -> str:
-    return ", ".join(one.file for one in calibration.experiments)

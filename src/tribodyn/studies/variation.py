@@ -61,7 +61,8 @@ def variation(key: Key, asked: Asked) -> Variation:
     be understood, or a value is not of the kind that the key takes.
     """
     if not isinstance(asked, str):
-        return _levels(key, [_plain(value) for value in asked], asked)
+        plain = [value.item() if isinstance(value, np.generic) else value for value in asked]
+        return _levels(key, plain, asked)
     call = _CALL.fullmatch(asked)
     if call is not None:
         return _scatter(key, call[1], call[2], asked)
@@ -71,11 +72,6 @@ def variation(key: Key, asked: Asked) -> Variation:
     if len(ends) == 3 and key.kind in (*_SCALABLE, "count"):
         return Levels(key, _range(key, ends, asked))
     return _levels(key, _with_shared_unit(key, asked.split(",")), asked)
-
-
-def _plain(value: object) -> object:
-    """Return a value of NumPy's as one of Python's."""
-    return value.item() if isinstance(value, np.generic) else value
 
 
 def _levels(key: Key, texts: Sequence[object], asked: Asked) -> Levels:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,7 +54,7 @@ def execute(args: Namespace) -> int:
     sets = _sets(args)
     directory = None if args.output is None else OutputDirectory(args.output)
     judged = []
-    with _reserved(directory):
+    with nullcontext() if directory is None else directory.reserved():
         for one in sets:
             if one.missing:
                 console.say(f"{one.missing}\n")
@@ -98,7 +98,3 @@ def _template(folder: str, console: Console) -> int:
     write_template(Path(folder))
     console.say(f"README.md and numbers.csv are in {folder}/")
     return 0
-
-
-def _reserved(directory: OutputDirectory | None) -> AbstractContextManager[None]:
-    return nullcontext() if directory is None else directory.reserved()

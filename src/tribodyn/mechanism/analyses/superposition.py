@@ -90,24 +90,12 @@ class JointReaction:
         return np.where(force < -least, upper, np.where(force > least, -lower, 0.0))
 
 
-def superposed(
-    mechanism: IdealMechanism,
-    outputs: Sequence[Output],
-    times: FloatArray,
-    displaced: Mapping[int, FloatArray],
-) -> FloatArray:
-    """Return the errors of outputs that the displacements of each joint cause by themselves.
-
-    ``outputs``: to be evaluated, along a direction, about an axis, or a distance; ``times``: rising, from 0
-    [s], shape (n_t,); ``displaced``: displacement and rotation of the shaft by the numbers of joints, shape
-    (n_t, n_causes, 6) each. Returns in the units of the outputs, shape (n_t, n_outputs, n_joints, n_causes).
-    """
-    (found,) = responses(mechanism, outputs, times, missing(mechanism, displaced))
-    return found.reshape(times.size, len(outputs), len(displaced), -1)
-
-
 def missing(mechanism: IdealMechanism, displaced: Mapping[int, FloatArray]) -> Asked:
-    """Return by how much rows miss for each joint and cause, shape (n_rows, n_joints n_causes)."""
+    """Return by how much rows miss for each joint and cause, shape (n_rows, n_joints n_causes).
+
+    ``displaced``: displacement and rotation of the shaft by the numbers of joints, shape (n_t, n_causes, 6)
+    each. The outputs that respond are along a direction, about an axis, or a distance.
+    """
     system = mechanism.system
     rows = {k: [i for i, (number, _) in enumerate(system.rows) if number == k] for k in displaced}
     n_causes = next(iter(displaced.values())).shape[1]

@@ -12,7 +12,7 @@ from tribodyn.joints.shapes import Mesh
 from tribodyn.kernels import dense
 from tribodyn.mechanism.analyses.ideal_motion import IdealMechanism
 from tribodyn.mechanism.analyses.kinematics import of_drives
-from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, missing, responses, superposed
+from tribodyn.mechanism.analyses.superposition import CAUSES, JointReaction, missing, responses
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.output_values import Output
 from tribodyn.mechanism.assembly.parts_by_number import model_of
@@ -122,7 +122,8 @@ def error_growth(
         moved[model.joints.index(name)] = followed[:, None]
     lead = np.linspace(0.0, times[0], _LEAD)[:-1] if times[0] > 0.0 else np.empty(0)
     still = {k: np.concatenate([np.zeros((lead.size, 1, 6)), own]) for k, own in moved.items()}
-    found = superposed(IdealMechanism(assembly), outputs, np.concatenate([lead, times]), still)
-    growth = found[lead.size :].sum(axis=(2, 3))
+    mechanism = IdealMechanism(assembly)
+    (found,) = responses(mechanism, outputs, np.concatenate([lead, times]), missing(mechanism, still))
+    growth = found[lead.size :].sum(axis=2)
     growth[:, ~np.array([output.has_displacement for output in outputs])] = np.nan
     return np.asarray(growth)
