@@ -128,12 +128,8 @@ def written(name: str, known: Property) -> str:
     """Return a property as a person writes it: a value, a range, or the ends of a table."""
     unit = _UNITS[name]
     many = known.spread or known.values
-    ends = dict.fromkeys(_quantity(value, unit) for value in (many[0], many[-1]))
-    return " to ".join(ends)
-
-
-def _quantity(value: float, unit: str) -> str:
-    return from_si(float(f"{value:.6g}"), unit) if unit else f"{value:.6g}"
+    rounded = dict.fromkeys(f"{value:.6g}" for value in (many[0], many[-1]))
+    return " to ".join(from_si(float(number), unit) if unit else number for number in rounded)
 
 
 def _read(name: str, table: Mapping[str, Any], sources: Mapping[str, str]) -> Property:

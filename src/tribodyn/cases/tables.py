@@ -176,14 +176,10 @@ def _declared_pairs(
     below = [
         entry
         for path, group in groups_of(model)
-        for entry in _declared_pairs(group, f"{pattern}{re.escape('.') if pattern else ''}{_regular(path)}")
+        for part in [re.escape(path).replace(re.escape(ANY_NAME), "[^.]+")]
+        for entry in _declared_pairs(group, f"{pattern}{re.escape('.') if pattern else ''}{part}")
     ]
     return (((pattern, own), *below)) if own else tuple(below)
-
-
-def _regular(path: str) -> str:
-    """Return the regular expression of the path of a table."""
-    return re.escape(path).replace(re.escape(ANY_NAME), "[^.]+")
 
 
 def as_declared(path: str, declared: Mapping[str, Key]) -> str:

@@ -128,11 +128,6 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _commands(arguments: Sequence[str]) -> Iterable[str]:
-    """Return the command that the arguments begin with; where they begin with none, all commands."""
-    return arguments[:1] if arguments and arguments[0] in COMMANDS else COMMANDS
-
-
 def _parser(names: Iterable[str]) -> _Parser:
     """Return the parser of some commands."""
     parser = _Parser(
@@ -178,7 +173,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _executed(arguments: Sequence[str]) -> int:
     """Execute a command; say what went wrong."""
-    parser = _parser(_commands(arguments))
+    # Of the command that they begin with; where they begin with none, of all.
+    parser = _parser(arguments[:1] if arguments and arguments[0] in COMMANDS else COMMANDS)
     try:
         completion.answer(parser)
         if not arguments:

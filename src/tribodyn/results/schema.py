@@ -76,7 +76,8 @@ def is_summary(content: object) -> bool:
         isinstance(content, dict)
         and "status" in content
         and all(isinstance(content.get(name, ""), str) for name in ("title", "status", "failure"))
-        and all(_are_texts(content.get(name, [])) for name in LISTS)
+        and all(isinstance(content.get(name, []), list) for name in LISTS)
+        and all(_of_form(value, TEXT) for name in LISTS for value in content.get(name, []))
         and _are_intervals(content.get(INTERVALS, {}))
         and all(
             _of_form(value, TEXT) or _is_number(value, NUMBER)
@@ -91,10 +92,6 @@ def _are_intervals(content: object) -> bool:
         isinstance(ends, list) and len(ends) == 2 and all(_is_number(end, NUMBER) for end in ends)
         for ends in content.values()
     )
-
-
-def _are_texts(content: object) -> bool:
-    return isinstance(content, list) and all(_of_form(value, TEXT) for value in content)
 
 
 def _check_attributes(owner: str, attributes: Mapping[Any, Any], table: Mapping[str, str]) -> None:

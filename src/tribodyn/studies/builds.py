@@ -27,7 +27,7 @@ from tribodyn.results.summary import Summary
 from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
 from tribodyn.studies.archive import remarks
-from tribodyn.studies.plan import POINT, Axis, plan_of, varied_key
+from tribodyn.studies.plan import POINT, Axis, SweepPlan, plan_of, plan_of_draws, varied_key
 from tribodyn.studies.quadratic_model import quadratic
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.sweep import SILENT, Means, Watcher, compute_missing
@@ -284,7 +284,7 @@ class BuildRuns:
     def alone(self, means: Means, watcher: Watcher) -> FloatArray:
         """Return the errors of copies alone at the instants, shape (n_copies, n_instants)."""
         axis = Axis(POINT, {key: tuple(values) for key, values in self._columns.items()})
-        found = self._computed(self._alone, axis, "alone", means, watcher)
+        found = self._computed(plan_of_draws(self._alone, axis), "alone", means, watcher)
         return np.array([self._errors(one, self._output) for one in found])
 
     def together(self, means: Means, watcher: Watcher) -> FloatArray:
@@ -300,7 +300,7 @@ class BuildRuns:
             for copy, own in enumerate(of_builds, 1):
                 case.pattern[one.pattern].add_copy(one.key, copy, own, whole.at, columns)
         axis = Axis(POINT, {varied_key(whole, path): tuple(own.tolist()) for path, own in columns.items()})
-        found = self._computed(whole, axis, "together", means, watcher)
+        found = self._computed(plan_of(whole, (axis,)), "together", means, watcher)
         errors = [[self._errors(one, f"{output}[{copy + 1}]") for copy in range(n)] for one in found]
         return numbers_of_builds(np.array(errors))
 
@@ -331,8 +331,8 @@ class BuildRuns:
         shares = np.sum(factors**2, axis=1) / max(float(np.sum(apart.var(axis=0))), np.finfo(float).tiny)
         return dict(zip(self._case.scattered, shares.tolist(), strict=True))
 
-    def _computed(self, case: Case, axis: Axis, name: str, means: Means, watcher: Watcher) -> list[Summary]:
-        plan, summaries = plan_of(case, (axis,)), dict[str, Summary]()
+    def _computed(self, plan: SweepPlan, name: str, means: Means, watcher: Watcher) -> list[Summary]:
+        summaries: dict[str, Summary] = {}
         place = None if self._directory is None else self._directory / name
         compute_missing(plan, place, means, watcher, summaries)
         for note in remarks(plan, summaries):

@@ -37,7 +37,7 @@ def local(job: SweepJob, workers: int | None) -> Finished:
     handles for a single process; TribodynError if processes die before they compute anything.
     """
     size = _affordable(min(workers or platforms.processors(), len(job.points)), job.note)
-    fork_server.start(toml=job.points[0].toml)
+    fork_server.start(toml=job.points[0].toml or job.case.to_toml())
 
     def task_of(block: Sequence[Point]) -> Task:
         changes = [point.changes for point in block]

@@ -35,8 +35,8 @@ class Point:
     """One simulation of a sweep."""
 
     changes: Mapping[str, str]  #: What differs from the base case, by dotted path, as a user writes it.
-    toml: str = field(repr=False)  #: The whole resolved case.
-    name: str  #: Hash of that case and of the version of tribodyn: equal names have equal results.
+    toml: str = field(repr=False)  #: The whole resolved case; empty where only its changes are known.
+    name: str  #: Hash of both and of the version of tribodyn: equal names have equal results.
 
     @property
     def label(self) -> str:
@@ -123,6 +123,19 @@ def plan_of(case: Case, axes: tuple[Axis, ...], sampling: Sampling = Sampling())
     return SweepPlan(case, axes, tuple(points), sampling)
 
 
+def plan_of_draws(case: Case, axis: Axis) -> SweepPlan:
+    """Return the plan of very many points along one dimension, whose cases differ by numbers alone.
+
+    Of these the outermost are read; who computes a point reads its case. Raises as :func:`make_plan`.
+    """
+    _check_number(axis.size)
+    for i in sorted({values.index(end(values)) for values in axis.columns.values() for end in (min, max)}):
+        _point(case, [axis.changes(i)], f"point {i + 1} of {axis.size}")
+    base = f"{case.to_toml()} changed by "
+    points = tuple(Point(one, "", _name(f"{base}{one}")) for one in map(axis.changes, range(axis.size)))
+    return SweepPlan(case, (axis,), points, Sampling())
+
+
 def varied_key(case: Case, path: str) -> Key:
     """Return the key of a case that shall vary: of a vector, a component.
 
@@ -181,5 +194,8 @@ def _point(case: Case, along: Sequence[Mapping[str, str]], which: str) -> Point:
     except InputError as error:
         label = brief(Point(changes, "", "").label, 2 * LONGEST)
         raise InputError(f"{error.reason} ({which}: {label})", key=error.key, source=SOURCE) from None
-    digest = hashlib.sha256(f"tribodyn {version('tribodyn')}\n{toml}".encode()).hexdigest()
-    return Point(changes, toml, digest[:16])
+    return Point(changes, toml, _name(toml))
+
+
+def _name(case: str) -> str:
+    return hashlib.sha256(f"tribodyn {version('tribodyn')}\n{case}".encode()).hexdigest()[:16]

@@ -1,5 +1,7 @@
 """Points of a sweep: what varies, samples of distributions, names of cases."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from tribodyn.core.errors import InputError
 from tribodyn.mechanisms.catalogue import load_case, parse_case
 from tribodyn.papers.cheng_2022.reduced.case import VsvCase
 from tribodyn.studies import DISTRIBUTIONS, SAMPLERS, Sampling, make_plan
+from tribodyn.studies.plan import POINT, Axis, plan_of_draws
 from tribodyn.studies.variation import Levels, Scatter, variation, written
 
 VSV = load_case("vsv")
@@ -222,3 +225,31 @@ def test_everything_else_of_the_case_counts_too() -> None:
 def test_every_contact_law_can_be_swept_in_both_formulations() -> None:
     vary = {"contact.law": ",".join(LAWS), "mechanism.formulation": "exact,paper"}
     assert len({point.name for point in make_plan(VSV, vary).points}) == 2 * len(LAWS)
+
+
+def test_of_very_many_draws_only_the_outermost_cases_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """4,000 copies of a build are planned in less than a second; each is read where it is computed."""
+    key = keys_of(VsvCase)["joint.clearance"]
+    clearances = (2e-5, *np.linspace(1e-5, 3e-5, 999).tolist())
+    read = []
+
+    def replace(case: VsvCase, changes: Mapping[str, object], *, source: str = "replace") -> VsvCase:
+        read.append(changes["joint.clearance"])
+        return plainly(case, changes, source=source)
+
+    plainly = VsvCase.replace
+    monkeypatch.setattr(VsvCase, "replace", replace)
+    plan = plan_of_draws(VSV, Axis(POINT, {key: clearances}))
+    assert read == ["10 um", "30 um"]
+    assert [point.changes["joint.clearance"] for point in plan.points[:2]] == ["20 um", "10 um"]
+    # Of the same case, draw and version alone names are the same.
+    names = [point.name for point in plan.points]
+    assert names == [point.name for point in plan_of_draws(VSV, plan.axes[0]).points]
+    others = plan_of_draws(plainly(VSV, {"run.duration": "1 s"}), plan.axes[0])
+    assert len({*names, *(point.name for point in others.points)}) == 2000
+
+
+def test_a_draw_that_cannot_be_is_refused_before_any_runs() -> None:
+    key = keys_of(VsvCase)["joint.clearance"]
+    with pytest.raises(InputError, match="point 2 of 3"):
+        plan_of_draws(VSV, Axis(POINT, {key: (2e-5, -1e-6, 1e-5)}))

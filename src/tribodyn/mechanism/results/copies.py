@@ -142,18 +142,17 @@ def _hysteresis(dataset: "xr.Dataset", numbers: list[int], scale: float) -> floa
     return widest
 
 
-def _sigma(error: FloatArray, time: FloatArray) -> float:
-    """Return the standard deviation over copies, root mean square over time."""
-    return float(np.sqrt(over_time(np.var(error, axis=1), time)))
-
-
 _NUMBERS: Final[dict[str, tuple[str, str, Callable[[FloatArray, FloatArray], float]]]] = {
     "spread_max": (
         "Spread of copies, peak",
         "Largest difference of two copies at any time.",
         lambda error, _: float(np.ptp(error, axis=1).max()),
     ),
-    "sigma": ("Standard deviation of copies", "Over copies, and root mean square over time.", _sigma),
+    "sigma": (
+        "Standard deviation of copies",
+        "Over copies, and root mean square over time.",
+        lambda error, time: float(np.sqrt(over_time(np.var(error, axis=1), time))),
+    ),
 }
 
 
