@@ -49,6 +49,7 @@ from tribodyn.mechanism.results.derived_columns import (
     transmitted,
     with_motors,
 )
+from tribodyn.mechanism.results.fixed_joints import with_reactions
 from tribodyn.mechanism.results.guides import guide_columns
 from tribodyn.mechanism.results.joint_readings import TERMS, WHOLE, balance_columns
 from tribodyn.mechanism.results.kept_variables import (
@@ -315,7 +316,7 @@ class MechanismSystem:
                 **power_columns(self.model, found.couplings),
                 **temperature_effects.radial_clearances(self.model, run.solution.t),
                 **of_guides,
-                **(spring_columns(self.case, observed_motion(found)) if self.case.springs else {}),
+                **(spring_columns(self.model, observed_motion(found)) if self.case.springs else {}),
                 **of_outputs,
                 **vibrations.columns,
                 **{name: values for name, values in found.whole.items() if name not in _IN_BALANCE},
@@ -398,7 +399,9 @@ class MechanismSystem:
         return {"start": "equilibrium" if self.start() is not None else "centred"}
 
     def _observed(self, run: FinishedRun) -> Observed:
-        return with_motors(self.model, self._layout.observed(run.solution.rows))
+        couplings = run.problem.data.parts.couplings
+        found = with_reactions(self.model, couplings, self._layout.observed(run.solution.rows))
+        return with_motors(self.model, found)
 
     @cached_property
     def _layout(self) -> Layout:
@@ -454,7 +457,7 @@ class MechanismSystem:
 
     def _coordinates(self, run: FinishedRun, vibrations: Vibrations) -> dict[str, ArrayLike]:
         parts: dict[str, ArrayLike] = {
-            "body": list(self.model.bodies),
+            "body": list(self.case.bodies),
             "joint": list(self.model.joints),
             "axis": list(AXES),
             "entry": list(ENTRIES),

@@ -39,11 +39,12 @@ def workload(case: MechanismCase) -> Workload:
     steps *= (case.solver.rtol / 1.0e-5) ** _TOLERANCE_POWER
     windows = max(1.0, duration / (case.period or duration))
     watched = len(case.joints) + len(real) + len(films) + 2 * len(case.drives)
-    quantities = layout_of(case).size
+    layout = layout_of(case)
+    quantities = layout.size
     rows = most_rows(case.run.step_rows, quantities, watched) if case.run.step_rows else 0
     return Workload(
         steps=steps,
-        states=float(N_STATES * len(case.bodies)),
+        states=float(N_STATES * layout.n_bodies),
         nodes=sum(map(float, _nodes(case))),
         joints=float(len(real)),
         cells=sum(float(film.grid.theta * film.grid.z) for film in films),

@@ -23,6 +23,7 @@ from tribodyn.mechanism.analyses.statics import Equilibria, require_no_film
 from tribodyn.mechanism.assembly.assembly import Assembly
 from tribodyn.mechanism.assembly.mechanism_problem import length_scale
 from tribodyn.mechanism.assembly.output_values import rotations
+from tribodyn.mechanism.assembly.pieces import modes_of_bodies
 from tribodyn.mechanism.assembly.positions import DrivePath, held, walked
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import Observed
@@ -194,17 +195,18 @@ def vibrations_of(assembly: Assembly, times: FloatArray, found: Observed, most: 
         return Vibrations(notes=notes)
     size = np.abs(eigenvalue[:, used])
     ratio = -eigenvalue[:, used].real / np.where(size > 0.0, size, 1.0)
+    shape, share = modes_of_bodies(assembly.model.pieces, orientation, shape[:, used], share[:, used])
     return Vibrations(
         {
             "natural_frequency": size / (2.0 * np.pi),
             "damping_ratio": np.where(np.abs(ratio) <= _UNDAMPED, 0.0, ratio),
-            "mode_shape": shape[:, used, :, :3],
-            "mode_rotation": shape[:, used, :, 3:],
-            "mode_share": share[:, used],
+            "mode_shape": shape[..., :3],
+            "mode_rotation": shape[..., 3:],
+            "mode_share": share,
         },
         {"mode": [str(number) for number in range(1, int(np.sum(used)) + 1)]},
         _instability(times, unstable),
-        [*_moving(assembly.model.bodies, share[0, used]), *notes],
+        [*_moving(tuple(assembly.model.case.bodies), share[0]), *notes],
     )
 
 

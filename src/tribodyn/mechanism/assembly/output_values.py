@@ -25,8 +25,8 @@ from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import unit
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
+from tribodyn.mechanism.assembly.pieces import Pieces, pieces_of
 from tribodyn.mechanism.assembly.skeleton import rotated
-from tribodyn.mechanism.frames import GROUND
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.output_declarations import OutputKeys
 
@@ -56,10 +56,11 @@ class Output:
 
     name: str  #: Its name.
     keys: OutputKeys  #: Its table.
-    #: Numbers of the two bodies; −1 for the ground.
+    #: Numbers of the pieces of the two bodies; −1 for the ground.
     body: int
     reference: int
-    centres: FloatArray  #: Their mass centres as drawn [m], shape (2, 3); zeros for the ground.
+    #: Mass centres of the pieces as drawn, zeros for the ground, and of the first body [m], shape (3, 3).
+    centres: FloatArray
 
     @property
     def is_rate(self) -> bool:
@@ -150,7 +151,7 @@ class Output:
 
     def _point_in_reference(self, motion: Motion) -> tuple[FloatArray, FloatArray]:
         """Return the way from the reference point to the point, and its rate, in axes of the reference."""
-        drawn = self.centres[0] if self.keys.point is None else np.array(self.keys.point)
+        drawn = self.centres[2] if self.keys.point is None else np.array(self.keys.point)
         other = drawn if self.keys.reference_point is None else np.array(self.keys.reference_point)
         first, first_rate = _of_point(motion, self.body, drawn - self.centres[0])
         second, second_rate = _of_point(motion, self.reference, other - self.centres[1])
@@ -162,15 +163,15 @@ class Output:
 
 def outputs_of(case: MechanismCase) -> tuple[Output, ...]:
     """Return the outputs of a case."""
-    return tuple(observing(case, name, keys) for name, keys in case.outputs.items())
+    pieces = pieces_of(case)
+    return tuple(observing(pieces, name, keys) for name, keys in case.outputs.items())
 
 
-def observing(case: MechanismCase, name: str, keys: OutputKeys) -> Output:
+def observing(pieces: Pieces, name: str, keys: OutputKeys) -> Output:
     """Return an output of the bodies of a case."""
-    numbers = {body: number for number, body in enumerate(case.bodies)}
-    centres = {body: one.centre for body, one in case.bodies.items()} | {GROUND: (0.0, 0.0, 0.0)}
-    places = np.array([centres[keys.body], centres[keys.reference]])
-    return Output(name, keys, numbers[keys.body], numbers.get(keys.reference, -1), places)
+    body, reference = pieces.numbers[keys.body], pieces.numbers[keys.reference]
+    centres = [*pieces.centres[[body, reference]], pieces.bodies[keys.body].centre]
+    return Output(name, keys, body, reference, np.array(centres))
 
 
 def motion_of(state: FloatArray) -> Motion:

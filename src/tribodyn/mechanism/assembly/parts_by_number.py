@@ -1,6 +1,6 @@
 """A mechanism between its keys and its equations: parts by number, and the surfaces of its joints.
 
-Bodies and joints are counted from 0 in the order of the case.
+Pieces, which are bodies or several in one, and joints are counted from 0 in the order of the case.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,6 +11,7 @@ from itertools import chain
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
+from tribodyn.mechanism.assembly.pieces import Pieces, pieces_of
 from tribodyn.mechanism.elements.bristle import resting
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
 from tribodyn.mechanism.frames import GROUND
@@ -51,11 +52,17 @@ class Model:
     clearances: Mapping[str, Clearance] = field(default_factory=dict)
     #: Kinds of the ideal joints that take the place of joints that yield, by their names.
     held: Mapping[str, str] = field(default_factory=dict)
+    apart: frozenset[str] = frozenset()  #: Names of fixed joints that make no piece of their bodies.
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The pieces that kernels move as bodies."""
+        return pieces_of(self.case, self.apart)
 
     @cached_property
     def bodies(self) -> tuple[str, ...]:
-        """Names of the bodies."""
-        return tuple(self.case.bodies)
+        """Names of the pieces, each that of its first body."""
+        return tuple(self.pieces.members)
 
     @cached_property
     def joints(self) -> tuple[str, ...]:
@@ -75,8 +82,17 @@ class Model:
         return tuple(found)
 
     def number(self, body: str) -> int:
-        """Return the number of a body; −1 for the ground."""
-        return self.bodies.index(body) if body in self.case.bodies else -1
+        """Return the number of the piece of a body; −1 for the ground."""
+        return self.pieces.numbers[body]
+
+    @cached_property
+    def ends(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the bodies of socket and shaft of joints, springs, loads and legs, in order."""
+        case = self.case
+        joints = (joint.between[:: int(joint.sign)] for joint in case.joints.values())
+        loads = ((GROUND, load.body)[:: -1 if load.frame == "body" else 1] for load in case.loads.values())
+        legs = (leg.bodies for element in self.elements for leg in element.legs)
+        return (*joints, *(spring.between for spring in case.springs.values()), *loads, *legs)
 
     def joint(self, number: int) -> JointKeys:
         """Return the keys of a joint."""
@@ -133,7 +149,7 @@ class Model:
     @property
     def as_drawn(self) -> "Model":
         """The mechanism in which every joint is the ideal one of its type."""
-        return Model(self.case, held={**self.elastic, **self.held})
+        return replace(self, clearances={}, held={**self.elastic, **self.held})
 
     @property
     def counterpart(self) -> "Model":
@@ -144,7 +160,8 @@ class Model:
     def in_place(self) -> "Model":
         """The mechanism whose joints are where their points are."""
         case = self.case.without_deviations()
-        return self if case is self.case else replace(self, case=case)
+        off = {name for name, joint in self.case.joints.items() if joint != case.joints[name]}
+        return self if case is self.case else replace(self, case=case, apart=self.apart | off)
 
     @property
     def without_play(self) -> "Model":
@@ -185,6 +202,8 @@ class Model:
             return body
 
         for name, joint in self.case.joints.items():
+            if name in self.pieces.joints:
+                continue
             first, second = (root(self.number(body)) for body in joint.between)
             if JOINTS[self.elastic.get(name, self.kind(name))].ROWS:
                 if first == second:
@@ -198,7 +217,7 @@ class Model:
         between += [spring.between for spring in self.case.springs.values()]
         between += [leg.bodies for element in self.elements for leg in element.legs]
         held = set(chain.from_iterable(between))
-        for body in self.bodies:
+        for body in self.case.bodies:
             if body not in held:
                 text = f"nothing holds body {body}: no joint, spring or element names it"
                 yield ModelError(f"bodies.{body}", text)

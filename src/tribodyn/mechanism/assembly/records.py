@@ -25,10 +25,9 @@ from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.ordering import n_blocks, n_nodes, number_entries, patterns
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.element import ForceLaw, Leg
-from tribodyn.mechanism.frames import GROUND, cross, frame
+from tribodyn.mechanism.frames import frame
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.mechanism_case import MechanismCase
-from tribodyn.mechanism.model.body import BodyKeys
 from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys
 from tribodyn.mechanism.model.parts import JointKeys, SpringKeys
 from tribodyn.mechanisms.shaft_loads import Term, parts_of, term, term_records
@@ -130,26 +129,20 @@ def _size(model: Model) -> float:
 
 def _bodies(model: Model) -> Any:
     """Return the records of the bodies."""
-    records = new_records(len(model.bodies), kinds.Body)
-    for record, body in zip(records, model.case.bodies.values(), strict=True):
-        inertia = _inertia(body)
-        record.mass, record.centre[:] = body.mass, body.centre
-        record.inertia[:], record.inverse[:] = inertia, dense.inverse(inertia)
+    pieces, records = model.pieces, new_records(len(model.bodies), kinds.Body)
+    records.mass, records.centre[:] = pieces.masses, pieces.centres[:-1]
+    for number, record in enumerate(records):
+        record.inertia[:] = inertia = pieces.inertia(number)
+        record.inverse[:] = dense.inverse(inertia)
     return records
-
-
-def _inertia(body: BodyKeys) -> FloatArray:
-    """Return the inertia about the mass centre, along the axes of the drawing [kg m²], shape (3, 3)."""
-    first, second = unit(body.first_axis, "first_axis"), unit(body.second_axis, "second_axis")
-    axes = np.column_stack([first, second, cross(first, second)])
-    inertia = dense.product(dense.product(axes, np.diag(body.inertia)), axes.T)
-    return np.asarray(0.5 * (inertia + inertia.T))
 
 
 def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
     """Return the records of joints, springs, loads and legs of elements, in this order; add the terms."""
     case = model.case
-    records = new_records(model.first_leg + sum(len(e.legs) for e in model.elements), kinds.Coupling)
+    records, n = new_records(len(model.ends), kinds.Coupling), len(model.bodies)
+    for record, ends in zip(records, model.ends, strict=True):
+        record.socket, record.shaft = (model.number(body) % (n + 1) for body in ends)
     for name in (
         "node",
         "row_signal",
@@ -186,7 +179,7 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
         _place_load(record, model, load)
         fill_load(record, model, load, terms)
     _fill_elements(records, model, signals)
-    nodes, rows = len(model.bodies), 0
+    nodes, rows = n, 0
     for record in records:
         if record.n_rows > 0 or has_law(record):
             record.node, record.first_row = nodes, rows
@@ -196,14 +189,11 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
     return records
 
 
-def _place(
-    record: Any, model: Model, bodies: Sequence[str], points: ArrayLike, axes: tuple[FloatArray, FloatArray]
-) -> None:
-    """Fill bodies, origins and axes of socket and shaft; ``points`` and ``axes`` as drawn."""
-    n, keys = len(model.bodies), model.case.bodies
-    origins = np.array(points) - [keys[b].centre if b in keys else (0.0, 0.0, 0.0) for b in bodies]
-    record.socket, record.shaft = (model.number(b) if b in keys else n for b in bodies)
-    record.socket_point[:], record.shaft_point[:] = origins
+def _place(record: Any, model: Model, points: ArrayLike, axes: tuple[FloatArray, FloatArray]) -> None:
+    """Fill origins and axes of socket and shaft; ``points`` and ``axes`` as drawn."""
+    record.socket_point[:], record.shaft_point[:] = (
+        np.array(points) - model.pieces.centres[[record.socket, record.shaft]]
+    )
     record.to_socket[:], record.shaft_axes[:] = axes[0].T, axes[1]
 
 
@@ -213,8 +203,10 @@ def _fill_joint(record: Any, model: Model, name: str, joint: JointKeys) -> None:
     kind = JOINTS[model.kind(name)]
     axes = frame(first, second), kind.shaft_axes(first, second)
     turned = 1 if joint.sign > 0.0 else -1
-    _place(record, model, joint.between[::turned], joint.points[::turned], axes)
-    if name in model.clearances:
+    _place(record, model, joint.points[::turned], axes)
+    if name in model.pieces.joints:  # at rest on the ground, for nothing moves in it
+        record.socket = record.shaft = len(model.bodies)
+    if name in model.clearances or name in model.pieces.joints:
         return
     for row in kind.ROWS:
         _add_row(record, *row)
@@ -255,7 +247,7 @@ def _add_drive(record: Any, joint: JointKeys, drive: DriveKeys, duration: float,
 
 def _fill_spring(record: Any, model: Model, spring: SpringKeys) -> None:
     """Fill a spring between two points."""
-    _place(record, model, spring.between, spring.points, (np.eye(3), np.eye(3)))
+    _place(record, model, spring.points, (np.eye(3), np.eye(3)))
     record.force = kinds.SPRING
     record.length = spring.drawn_length if spring.length is None else spring.length
     record.stiffness[0], record.damping[0] = spring.stiffness, spring.damping
@@ -263,9 +255,8 @@ def _fill_spring(record: Any, model: Model, spring: SpringKeys) -> None:
 
 def _place_load(record: Any, model: Model, load: LoadKeys) -> None:
     """Place a load: on the shaft against the ground, or on the socket where it turns with the body."""
-    bodies = (load.body, GROUND) if load.frame == "body" else (GROUND, load.body)
     point = load.acts_at(model.case.bodies[load.body].centre)
-    _place(record, model, bodies, (point, point), (np.eye(3), np.eye(3)))
+    _place(record, model, (point, point), (np.eye(3), np.eye(3)))
 
 
 def _fill_elements(records: Any, model: Model, signals: SignalList) -> None:
@@ -287,7 +278,7 @@ def _fill_elements(records: Any, model: Model, signals: SignalList) -> None:
 
 def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
     """Fill one term of the equation of an element."""
-    _place(record, model, leg.bodies, leg.points, (leg.axes, leg.axes))
+    _place(record, model, leg.points, (leg.axes, leg.axes))
     record.along[:], record.about, record.length = leg.along, leg.about, leg.length
     if leg.push is not None:
         record.push[:] = leg.push

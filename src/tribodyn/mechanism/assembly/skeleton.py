@@ -196,6 +196,11 @@ def rotated(quaternion: FloatArray, vectors: FloatArray) -> FloatArray:
     return np.asarray(vectors + w * twice + np.cross(axis, twice))
 
 
+def back(quaternion: FloatArray) -> FloatArray:
+    """Return the inverse of unit quaternions (w, x, y, z), shape (..., 4)."""
+    return np.asarray(quaternion * np.array([1.0, -1.0, -1.0, -1.0]))
+
+
 def view(points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the directions from which a mechanism that comes to points (n, 3) is seen, and up."""
     spans = np.ptp(points, axis=0)

@@ -166,16 +166,16 @@ def power_columns(model: Model, couplings: Mapping[str, FloatArray]) -> dict[str
     return found
 
 
-def spring_columns(case: MechanismCase, motion: Motion) -> dict[str, FloatArray]:
+def spring_columns(model: Model, motion: Motion) -> dict[str, FloatArray]:
     """Return force [N], length [m] and energy [J] of springs, shape (n_t, n_springs); nothing without any."""
     found = []
-    for name, spring in case.springs.items():
+    for name, spring in model.case.springs.items():
         ends = list(zip(spring.between, spring.points, strict=True))
         (body, point), (reference, other) = ends if ends[0][0] != GROUND else ends[::-1]
         keys = OutputKeys(
             body=body, reference=reference, quantity="distance", point=point, reference_point=other
         )
-        observed = observing(case, name, keys)
+        observed = observing(model.pieces, name, keys)
         length = observed.value(observed.components(motion))
         longer = length - (spring.drawn_length if spring.length is None else spring.length)
         force = spring.stiffness * longer + spring.damping * observed.rate(motion)

@@ -16,6 +16,7 @@ from tribodyn.kernels.film.data import FilmData
 from tribodyn.kernels.mechanism.observe import BODY, COUPLING, N_WHOLE, OF_SECOND, WHOLE
 from tribodyn.mechanism.assembly.output_values import MOTION
 from tribodyn.mechanism.assembly.parts_by_number import Model
+from tribodyn.mechanism.assembly.pieces import motion_of_bodies, pieces_of
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.mechanism_variables import (
     BODIES,
@@ -27,6 +28,7 @@ from tribodyn.mechanism.mechanism_variables import (
     place_of,
 )
 from tribodyn.mechanism.results.derived_columns import INPUTS, OBSERVED, followed_by
+from tribodyn.mechanism.results.fixed_joints import INPUTS as REACTION_INPUTS
 from tribodyn.mechanism.run_keys import FEW_FRAMES, SMALL
 from tribodyn.mechanisms.flash import has_conductors
 from tribodyn.mechanisms.output_keys import instants_of
@@ -152,7 +154,8 @@ def columns(model: Model, found: Observed) -> dict[str, FloatArray]:
     of_joints = {name: found.couplings[name][:, : signs.size] for name in known}
     for name in OF_SECOND & of_joints.keys() if np.any(signs < 0.0) else ():
         of_joints[name] = of_joints[name] * signs.reshape(-1, *(1,) * (of_joints[name].ndim - 2))
-    every = {**found.bodies, **of_joints, **film_columns(found.couplings, model)}
+    of_bodies = motion_of_bodies(model.pieces, found.bodies)
+    every = {**of_bodies, **of_joints, **film_columns(found.couplings, model)}
     chosen = {*kept(model.case)}
     return {name: values for name, values in every.items() if name in chosen}
 
@@ -161,7 +164,7 @@ def columns(model: Model, found: Observed) -> dict[str, FloatArray]:
 class Layout:
     """Columns of a row that a run keeps."""
 
-    #: Numbers of bodies, of joints, and of springs, loads and legs of elements.
+    #: Numbers of pieces, of joints, and of springs, loads and legs of elements.
     n_bodies: int
     n_joints: int
     n_others: int
@@ -214,18 +217,18 @@ class Layout:
 def layout_of(case: MechanismCase) -> Layout:
     """Return the columns that a run of a case keeps: all where its result holds all."""
     n_legs = sum(len(one.legs) for _, _, keys in case.elements() for one in keys.equations(case.joints))
-    counts = len(case.bodies), len(case.joints), len(case.springs) + len(case.loads) + n_legs
+    pieces = pieces_of(case)
+    counts = len(pieces.members), len(case.joints), len(case.springs) + len(case.loads) + n_legs
     if not not_kept(case):
         return Layout(*counts, BODY, COUPLING, COUPLING)
     chosen = {*kept(case)} - {*(() if case.oiled else OIL)}
-    others = {*_opposed(case), *(_OF_LEGS if n_legs else ()), *(["joint_work"] if case.loads else [])}
+    fixed = REACTION_INPUTS if pieces.joints else ()
+    others = {*_opposed(case), *(_OF_LEGS if n_legs else ()), *(["joint_work"] if case.loads else []), *fixed}
     joints = chosen | {*_read_of_joints(case)} | others
+    moves = case.outputs or case.springs or case.run.analysis == "vibrations"
     return Layout(
         *counts,
-        _of(
-            BODY,
-            chosen | {*(MOTION if case.outputs or case.springs or case.run.analysis == "vibrations" else ())},
-        ),
+        _of(BODY, chosen | {*(BODIES if pieces.joints else MOTION if moves else ())}),
         _of(COUPLING, joints),
         _of(COUPLING, others),
     )
