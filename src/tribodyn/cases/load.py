@@ -213,31 +213,20 @@ def _decoded(content: bytes, source: str) -> str:
 
 #: Kinds of files of other programs, by the endings of their names.
 _PROGRAMS: Final = {
-    "a robot description (URDF)": (".urdf", ".xacro"),
-    "a MuJoCo model (MJCF)": (".mjcf",),
-    "a Gazebo model (SDF)": (".sdf", ".world"),
-    "a CAD file": (
-        ".step",
-        ".stp",
-        ".iges",
-        ".igs",
-        ".x_t",
-        ".sldprt",
-        ".sldasm",
-        ".catpart",
-        ".ipt",
-        ".dxf",
-    ),
-    "a surface mesh": (".stl", ".obj", ".ply"),
-    "a model of Adams": (".adm", ".cmd", ".bin"),
-    "a Simulink model": (".slx", ".mdl"),
-    "a Modelica model": (".mo",),
-    "a functional mock-up unit": (".fmu",),
-    "a Python program": (".py", ".ipynb"),
-    "a Matlab program": (".m", ".mat"),
-    "a table of numbers": (".csv", ".xlsx", ".dat"),
-    "a result of tribodyn or another NetCDF file": (".nc", ".h5"),
-    "a JSON or YAML file": (".json", ".yaml", ".yml"),
+    "a robot description (URDF)": ".urdf .xacro",
+    "a MuJoCo model (MJCF)": ".mjcf",
+    "a Gazebo model (SDF)": ".sdf .world",
+    "a CAD file": ".step .stp .iges .igs .x_t .sldprt .sldasm .catpart .ipt .dxf",
+    "a surface mesh": ".stl .obj .ply",
+    "a model of Adams": ".adm .cmd .bin",
+    "a Simulink model": ".slx .mdl",
+    "a Modelica model": ".mo",
+    "a functional mock-up unit": ".fmu",
+    "a Python program": ".py .ipynb",
+    "a Matlab program": ".m .mat",
+    "a table of numbers": ".csv .xlsx .dat",
+    "a result of tribodyn or another NetCDF file": ".nc .h5",
+    "a JSON or YAML file": ".json .yaml .yml",
 }
 #: Kinds of XML files by their first element.
 _ROOTS: Final = {
@@ -255,7 +244,7 @@ _XML: Final = re.compile(r"\s*<(?>[?!][^>]*>[^<>]*<)*\s*([A-Za-z]\w*)?")
 def _other_program(source: str, text: str = "") -> str:
     """Return the message on a file of another program; empty where it may be meant as a case file."""
     ending = os.path.splitext(source)[1].lower()
-    kind = next((kind for kind, endings in _PROGRAMS.items() if ending in endings), "")
+    kind = next((kind for kind, endings in _PROGRAMS.items() if ending in endings.split()), "")
     if not kind and (root := _XML.match(text[:_LONGEST_PROLOGUE])):
         kind = _ROOTS.get(root[1] or "", "an XML file")
     words = "tribodyn reads case files in TOML: `tribodyn new` lists templates and writes one to begin with"

@@ -13,7 +13,7 @@ from decimal import Context, Decimal
 from functools import lru_cache
 from typing import Final, NamedTuple
 
-from tribodyn.cases.known_units import SIZES, ZEROS
+from tribodyn.cases.known_units import MEASURES, SIZES, ZEROS
 from tribodyn.core.quoting import brief
 
 _ARITHMETIC: Final = Context(prec=34)
@@ -33,39 +33,7 @@ _SPELLINGS: Final = str.maketrans(
     {"µ": "u", "μ": "u", "°": "deg", "·": "*", "⋅": "*", "−": "-", "²": "^2", "³": "^3", "\u00a0": " "}
 )
 
-#: The SI units that tribodyn works in, and what each of them measures.
-_DIMENSIONS: Final = {
-    "m": "length",
-    "m^2": "area",
-    "m^3": "volume",
-    "m^4": "second moment of area",
-    "rad": "angle",
-    "s": "time",
-    "kg": "mass",
-    "N": "force",
-    "Pa": "pressure",
-    "N m": "moment",
-    "m/s": "speed",
-    "m/s^2": "acceleration",
-    "rad/s": "angular speed",
-    "Hz": "frequency",
-    "N/m": "stiffness",
-    "N m/rad": "angular stiffness",
-    "N s/m": "damping",
-    "N m s/rad": "angular damping",
-    "kg m^2": "moment of inertia",
-    "1/m^2": "number per area",
-    "m^2/N": "wear volume per work",
-    "Pa s": "viscosity",
-    "m^2/s": "kinematic viscosity or diffusivity",
-    "kg/m^3": "density",
-    "Pa/m": "pressure per length",
-    "s/m": "loss per speed",
-    "K": "temperature",
-    "1/K": "thermal expansion",
-    "W/(m K)": "thermal conductivity",
-}
-SI_UNITS: Final = tuple(_DIMENSIONS)
+SI_UNITS: Final = tuple(MEASURES)
 
 
 #: No constant: tables for workshops have 4 (firgelliauto.com) to 7.2 (frictioncalculator.com).
@@ -94,7 +62,7 @@ def si_unit(unit: str) -> str:
     'Pa'
     """
     base = _scale(unit).base
-    found = next((si for si in _DIMENSIONS if _scale(si).base == base), unit)
+    found = next((si for si in MEASURES if _scale(si).base == base), unit)
     if _scale(found).factor != 1:
         raise UnitProblem(
             f"{unit!r} is no SI unit, and no other key has such a quantity; give the key an SI unit"
@@ -104,7 +72,7 @@ def si_unit(unit: str) -> str:
 
 def dimension(unit: str) -> str:
     """Return the name of what `unit` measures, such as ``length``; without one the unit itself."""
-    return _DIMENSIONS.get(si_unit(unit), unit)
+    return MEASURES.get(si_unit(unit), unit)
 
 
 def unit_of(text: str) -> str:

@@ -2,7 +2,10 @@
 
 import difflib
 import re
+import tomllib
 from collections.abc import Collection
+from functools import cache
+from importlib.resources import files
 from typing import Final
 
 LONGEST: Final = 80  #: Characters of a given text that a message repeats at most.
@@ -79,89 +82,6 @@ def closest(word: str, words: Collection[str], *, cutoff: float = 0.5) -> str | 
     return by_letters[found[0]] if found else None
 
 
-#: Probable meanings, the likeliest first; a word that is also one of ours is never looked up.
-SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
-    # Kinds of joints.
-    "hinge": ("revolute",),
-    "pin": ("revolute", "pin-slot", "trunnion"),
-    "pivot": ("revolute",),
-    "rotational": ("revolute",),
-    "slider": ("prismatic",),
-    "slide": ("prismatic",),
-    "translational": ("prismatic",),
-    "ball": ("spherical",),
-    "ball-joint": ("spherical",),
-    "sleeve": ("cylindrical",),
-    "cardan": ("universal",),
-    "hooke": ("universal",),
-    "slot": ("pin-slot",),
-    "weld": ("fixed",),
-    "rigid": ("fixed",),
-    "plane": ("planar",),
-    "bushing": ("spring-damper",),
-    # The body that does not move.
-    "world": ("ground",),
-    "base": ("ground",),
-    "frame": ("ground",),
-    "earth": ("ground",),
-    # Tables and keys of user-defined mechanisms.
-    "links": ("bodies",),
-    "parts": ("bodies",),
-    "limit": ("stops", "stop"),
-    "limits": ("stops", "stop"),
-    "range": ("stops", "stop"),
-    "motors": ("drives", "drive"),
-    "motor": ("drives", "drive"),
-    "actuators": ("drives", "drive"),
-    "actuator": ("drives", "drive"),
-    "force": ("loads", "load"),
-    "forces": ("loads", "load"),
-    "friction": ("friction_coefficient",),
-    "mu": ("friction_coefficient",),
-    "com": ("centre",),
-    "cog": ("centre",),
-    "inertia_tensor": ("inertia",),
-    "moments_of_inertia": ("inertia",),
-    "kind": ("type",),
-    "g": ("gravity",),
-    "k": ("stiffness",),
-    "spring_constant": ("stiffness",),
-    "c": ("damping",),
-    "diameter": ("radius",),
-    "material": ("density",),
-    "clearance": ("radial", "gap"),
-    "radial_clearance": ("radial", "clearance"),
-    "diametral": ("radial",),
-    "diametral_clearance": ("radial",),
-    "tolerance": ("rtol",),
-    "bodies": ("between",),
-    "location": ("point",),
-    "position": ("point",),
-    "origin": ("point",),
-    "direction": ("axis", "along"),
-    "joint": ("joints", "body"),
-    "rate": ("specific_wear_rate",),
-    "wear_rate": ("specific_wear_rate",),
-    "oil": ("viscosity",),
-    "shaft": ("trunnion",),
-    "bore": ("bushing",),
-    "housing": ("bushing",),
-    "play": ("radial", "clearance"),
-    "gap": ("radial", "clearance"),
-    "rpm": ("speed",),
-    "velocity": ("speed",),
-    "time": ("duration",),
-    "end_time": ("duration",),
-    # Commands.
-    "simulate": ("run",),
-    "init": ("new",),
-    "create": ("new",),
-    "template": ("new",),
-    "list": ("cases",),
-    "keys": ("show",),
-    "plot": ("report",),
-    "gui": ("workbench",),
-}
 #: Words whose values are twice those of the words of this program for them.
 OF_DIAMETERS: Final = frozenset({"diameter", "diametral", "diametral_clearance"})
 
@@ -174,4 +94,10 @@ def meanings(word: str) -> tuple[str, ...]:
     >>> meanings("Hinge")
     ('revolute',)
     """
-    return SYNONYMS.get(word.casefold().replace(" ", "-"), ())
+    return tuple(synonyms().get(word.casefold().replace(" ", "-"), ()))
+
+
+@cache
+def synonyms() -> dict[str, list[str]]:
+    """Return the words of this program for those of others, the likeliest first."""
+    return tomllib.loads(files("tribodyn.core").joinpath("synonyms.toml").read_text(encoding="utf-8"))

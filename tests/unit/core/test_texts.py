@@ -10,7 +10,7 @@ from tribodyn.cases.keys import keys_of
 from tribodyn.cli.main import COMMANDS
 from tribodyn.core.errors import InputError
 from tribodyn.core.files import named, text_of
-from tribodyn.core.quoting import SYNONYMS
+from tribodyn.core.quoting import synonyms
 from tribodyn.mechanism.elements import ELEMENTS
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanisms.catalogue import kinds, load_case, parse_case
@@ -95,7 +95,7 @@ def test_every_meaning_is_a_word_of_ours() -> None:
     keys = keys_of(kinds()["mechanism"])
     names = {part for path in keys for part in path.split(".")}
     ours = {*JOINTS, *COMMANDS, *names, *(kind.METHOD for kind in ELEMENTS), "drive", "load", "ground"}
-    assert {word for meant in SYNONYMS.values() for word in meant} <= ours
+    assert {word for meant in synonyms().values() for word in meant} <= ours
 
 
 @pytest.mark.parametrize(
