@@ -27,6 +27,11 @@ class Quantity(NamedTuple):
 Table: TypeAlias = Sequence[Quantity]
 
 
+def by_axes(name: str, unit: str, meaning: str, axes: str = "XYZ") -> tuple[Quantity, ...]:
+    """Return the components of a vector along or about some axes."""
+    return tuple(Quantity(name + axis.lower(), unit, f"{meaning} {axis}") for axis in axes)
+
+
 def names(table: Table) -> tuple[str, ...]:
     """Return the names of a table in their order."""
     return tuple(quantity.name for quantity in table)

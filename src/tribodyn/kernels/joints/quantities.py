@@ -5,11 +5,10 @@ Signs are those of the source paper: φ_x and M_x right-handed, φ_y and M_y lef
 
 from typing import Final
 
-from tribodyn.core.quantities import Quantity, of_table
+from tribodyn.core.quantities import Quantity, by_axes, of_table
 
 STATES: Final = (
-    Quantity("e_x", "m", "offset of the trunnion centre along X"),
-    Quantity("e_y", "m", "offset of the trunnion centre along Y"),
+    *by_axes("e_", "m", "offset of the trunnion centre along", "XY"),
     Quantity("phi_x", "rad", "tilt of the trunnion about X (right-handed)"),
     Quantity("phi_y", "rad", "tilt of the trunnion about Y (left-handed)"),
     Quantity("e_x_dot", "m s-1", "velocity of the trunnion centre along X"),
@@ -20,14 +19,11 @@ STATES: Final = (
 
 #: The report of an instant. Of powers it tells what friction and damping do to the motion.
 REPORTED: Final = (
-    Quantity("F_cx", "N", "normal contact force on the trunnion along X"),
-    Quantity("F_cy", "N", "normal contact force on the trunnion along Y"),
+    *by_axes("F_c", "N", "normal contact force on the trunnion along", "XY"),
     Quantity("M_jcx", "N m", "moment of the contact pressure about X"),
     Quantity("M_jcy", "N m", "moment of the contact pressure about Y (left-handed)"),
-    Quantity("F_kx", "N", "rigid (asperity stiffness) part of the contact force along X"),
-    Quantity("F_ky", "N", "rigid (asperity stiffness) part of the contact force along Y"),
-    Quantity("F_fx", "N", "friction force on the trunnion along X"),
-    Quantity("F_fy", "N", "friction force on the trunnion along Y"),
+    *by_axes("F_k", "N", "rigid (asperity stiffness) part of the contact force along", "XY"),
+    *by_axes("F_f", "N", "friction force on the trunnion along", "XY"),
     Quantity("M_fx", "N m", "moment of the bushing friction about X"),
     Quantity("M_fy", "N m", "moment of the bushing friction about Y (left-handed)"),
     Quantity("M_jf", "N m", "friction moment of the bushing about Z"),

@@ -6,7 +6,7 @@ from typing import Any, Final
 from mebdf.arrays import FloatArray
 from mebdf.kernels.elementary import hypot
 from mebdf.kernels.jit import copy
-from tribodyn.core.quantities import Quantity, Record, of_table
+from tribodyn.core.quantities import Quantity, Record, by_axes, of_table
 from tribodyn.kernels.film.report import FILM as OF_FILM
 from tribodyn.kernels.jit import kernel
 from tribodyn.kernels.joints.surface.data import SurfaceData
@@ -45,18 +45,10 @@ WHOLE: Final = (
     Quantity("heat_friction", "J", "heat of friction"),
     Quantity("heat_film", "J", "heat of oil films"),
     Quantity("work_expansion", "J", "work of temperatures on what contacts store"),
-    Quantity("momentum_x", "kg m s-1", "momentum along x"),
-    Quantity("momentum_y", "kg m s-1", "momentum along y"),
-    Quantity("momentum_z", "kg m s-1", "momentum along z"),
-    Quantity("spin_x", "kg m2 s-1", "angular momentum about the origin, x"),
-    Quantity("spin_y", "kg m2 s-1", "angular momentum about the origin, y"),
-    Quantity("spin_z", "kg m2 s-1", "angular momentum about the origin, z"),
-    Quantity("impulse_x", "N s", "impulse of gravity and ground along x"),
-    Quantity("impulse_y", "N s", "impulse of gravity and ground along y"),
-    Quantity("impulse_z", "N s", "impulse of gravity and ground along z"),
-    Quantity("spin_impulse_x", "N m s", "their angular impulse about the origin, x"),
-    Quantity("spin_impulse_y", "N m s", "their angular impulse about the origin, y"),
-    Quantity("spin_impulse_z", "N m s", "their angular impulse about the origin, z"),
+    *by_axes("momentum_", "kg m s-1", "momentum along", "xyz"),
+    *by_axes("spin_", "kg m2 s-1", "angular momentum about the origin,", "xyz"),
+    *by_axes("impulse_", "N s", "impulse of gravity and ground along", "xyz"),
+    *by_axes("spin_impulse_", "N m s", "their angular impulse about the origin,", "xyz"),
     Quantity("gap", "1", "largest residual of a constraint, in m or rad"),
     Quantity("gap_rate", "1", "largest rate of it, in m/s or rad/s"),
 )

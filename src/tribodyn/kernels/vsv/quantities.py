@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from tribodyn.core.quantities import Quantity, names, of_table, of_tables, together
+from tribodyn.core.quantities import Quantity, by_axes, names, of_table, of_tables, together
 from tribodyn.kernels.joints.quantities import REPORTED, STATES
 from tribodyn.kernels.joints.quantities import WATCHED as OF_JOINT
 
@@ -22,32 +22,19 @@ COLLAR: Final = (
     Quantity("M_tf", "N m", "friction moment of the thrust collar about Z"),
 )
 REACTIONS: Final = (
-    Quantity("F_ax", "N", "force of the casing on the crank pivot along X"),
-    Quantity("F_ay", "N", "force of the casing on the crank pivot along Y"),
-    Quantity("F_az", "N", "force of the casing on the crank pivot along Z"),
-    Quantity("M_ax", "N m", "moment of the casing on the crank pivot about X"),
-    Quantity("M_az", "N m", "moment of the casing on the crank pivot about Z"),
+    *by_axes("F_a", "N", "force of the casing on the crank pivot along"),
+    *by_axes("M_a", "N m", "moment of the casing on the crank pivot about", "XZ"),
     Quantity("M_d", "N m", "drive moment on the crank"),
-    Quantity("F_21x", "N", "force of the drag link on the crank along X"),
-    Quantity("F_21y", "N", "force of the drag link on the crank along Y"),
-    Quantity("F_21z", "N", "force of the drag link on the crank along Z"),
-    Quantity("F_32x", "N", "force of the unison ring on the drag link along X"),
-    Quantity("F_32y", "N", "force of the unison ring on the drag link along Y"),
-    Quantity("F_32z", "N", "force of the unison ring on the drag link along Z"),
-    Quantity("F_43x", "N", "force of the lever arm on the unison ring along X"),
-    Quantity("F_43y", "N", "force of the lever arm on the unison ring along Y"),
-    Quantity("F_43z", "N", "force of the lever arm on the unison ring along Z"),
-    Quantity("F_bx", "N", "force of the casing on the unison ring along X"),
-    Quantity("F_bz", "N", "force of the casing on the unison ring along Z"),
-    Quantity("M_bx", "N m", "moment of the casing on the unison ring about X"),
-    Quantity("M_bz", "N m", "moment of the casing on the unison ring about Z"),
+    *by_axes("F_21", "N", "force of the drag link on the crank along"),
+    *by_axes("F_32", "N", "force of the unison ring on the drag link along"),
+    *by_axes("F_43", "N", "force of the lever arm on the unison ring along"),
+    *by_axes("F_b", "N", "force of the casing on the unison ring along", "XZ"),
+    *by_axes("M_b", "N m", "moment of the casing on the unison ring about", "XZ"),
     Quantity("F_cz", "N", "force of the thrust collar on the trunnion along Z"),
 )
 #: In the order of the loads in ``kernels/vsv/data.py``.
 AIR: Final = (
-    Quantity("F_airx", "N", "aerodynamic force on the vane along X"),
-    Quantity("F_airy", "N", "aerodynamic force on the vane along Y"),
-    Quantity("F_airz", "N", "aerodynamic force on the vane along Z"),
+    *by_axes("F_air", "N", "aerodynamic force on the vane along"),
     Quantity("M_airx", "N m", "moment of the aerodynamic force about X, over the vane's centre"),
     Quantity(
         "M_airy", "N m", "moment of the aerodynamic force about Y, over the vane's centre (left-handed)"

@@ -9,7 +9,9 @@ from mebdf.compiled.library import Sources
 
 #: Sources of the solver's machine code.
 SOURCES: Final = Sources(
-    Path(__file__).parents[1], ("kernels/**/*.py", "compiled/*.py", "arrays.py"), listing=("mebdf.kernels",)
+    Path(__file__).parents[1],
+    ("kernels/**/*.py", "compiled/*.py", "compiled/*.ll", "arrays.py"),
+    listing=("mebdf.kernels",),
 )
 
 entry, kernel, inlined = decorators(SOURCES)

@@ -6,7 +6,7 @@ On the shaft, in the socket's frame, moments about the shaft's origin.
 from typing import Annotated, Final, NamedTuple
 
 from mebdf.arrays import FloatArray, FloatMatrix, IntArray
-from tribodyn.core.quantities import Quantity, Record, of_table, record_type
+from tribodyn.core.quantities import Quantity, Record, by_axes, of_table, record_type
 from tribodyn.core.remembered import ContactTable
 from tribodyn.kernels.jit import inlined
 
@@ -152,10 +152,8 @@ def table_of(data: SurfaceData, surface: Record) -> ContactTable:
 
 def _wrench(force: str, moment: str, meaning: str) -> tuple[Quantity, ...]:
     """Return a force and a moment by components."""
-    return (
-        *(Quantity(force + axis.lower(), "N", f"{meaning} along {axis}") for axis in "XYZ"),
-        *(Quantity(moment + axis.lower(), "N m", f"moment of the {meaning} about {axis}") for axis in "XYZ"),
-    )
+    along, about = f"{meaning} along", f"moment of the {meaning} about"
+    return *by_axes(force, "N", along), *by_axes(moment, "N m", about)
 
 
 #: The report of an instant.
