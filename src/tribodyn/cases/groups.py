@@ -27,15 +27,20 @@ def _loss_factor() -> Any:
     return number(None, words, ge=0, le=1, example="0.005")
 
 
+def _material(example: str) -> Any:
+    words = "of the library; keys beside it go before what it gives"
+    return choice(None, words, family="tribodyn.cases.materials:MATERIALS", example=example)
+
+
+def _conductivity(example: str) -> Any:
+    words = "of heat; of both surfaces, with the diffusivity, for a flash temperature"
+    return quantity(None, words, gt=0, example=example)
+
+
 class Trunnion(Group):
     """Surface of the trunnion (element 1)."""
 
-    material: str | None = choice(
-        None,
-        "of the library; keys beside it go before what it gives",
-        family="tribodyn.cases.materials:MATERIALS",
-        example="steel-17-4ph",
-    )
+    material: str | None = _material("steel-17-4ph")
     young_modulus: float = quantity("203 GPa", "Young's modulus E_1", TABLE_1, gt=0)
     poisson_ratio: float = number(0.27, "Poisson's ratio nu_1", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity(
@@ -44,12 +49,7 @@ class Trunnion(Group):
     thermal_expansion: float | None = quantity(
         None, "linear; needed with temperature.trunnion", ge=0, example="11e-6 1/K"
     )
-    conductivity: float | None = quantity(
-        None,
-        "of heat; of both surfaces, with the diffusivity, for a flash temperature",
-        gt=0,
-        example="16 W/(m K)",
-    )
+    conductivity: float | None = _conductivity("16 W/(m K)")
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", gt=0, example="4 mm^2/s")
     loss_factor: float | None = _loss_factor()
     surface: str | None = file("scan of the surface instead; then one of the bushing too", "trunnion.csv")
@@ -58,12 +58,7 @@ class Trunnion(Group):
 class Bushing(Group):
     """Surface of the bushing (element 2), the softer one."""
 
-    material: str | None = choice(
-        None,
-        "of the library; keys beside it go before what it gives",
-        family="tribodyn.cases.materials:MATERIALS",
-        example="bronze-c93200",
-    )
+    material: str | None = _material("bronze-c93200")
     young_modulus: float = quantity("7.17 GPa", "Young's modulus E_2", TABLE_1, gt=0)
     poisson_ratio: float = number(0.34, "Poisson's ratio nu_2", TABLE_1, gt=0, le=0.5)
     roughness: float = quantity(
@@ -73,12 +68,7 @@ class Bushing(Group):
     thermal_expansion: float | None = quantity(
         None, "linear; needed with temperature.bushing", ge=0, example="50e-6 1/K"
     )
-    conductivity: float | None = quantity(
-        None,
-        "of heat; of both surfaces, with the diffusivity, for a flash temperature",
-        gt=0,
-        example="0.35 W/(m K)",
-    )
+    conductivity: float | None = _conductivity("0.35 W/(m K)")
     diffusivity: float | None = quantity(None, "of heat, k/(rho c)", gt=0, example="0.2 mm^2/s")
     loss_factor: float | None = _loss_factor()
     surface: str | None = file("scan of the surface instead; then one of the trunnion too", "bushing.csv")

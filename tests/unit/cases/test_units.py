@@ -10,8 +10,8 @@ from tribodyn.cases.keys import keys_of
 from tribodyn.cases.known_units import SIZES, ZEROS
 from tribodyn.cases.other_units import looked_up
 from tribodyn.cases.units import (
-    _DIMENSIONS,
     _KNOWN,
+    MEASURES,
     UnitProblem,
     dimension,
     from_si,
@@ -166,7 +166,7 @@ def test_what_is_known_by_heart_is_what_pint_says(base: str, unit: str) -> None:
 def test_the_units_of_all_keys_are_known_without_pint() -> None:
     """A case with one of the others loads pint, which takes longer than to read and write it."""
     keys = {**keys_of(MechanismCase), **keys_of(VsvCase)}
-    assert {key.unit for key in keys.values()} - {""} | set(_DIMENSIONS) <= set(_KNOWN)
+    assert {key.unit for key in keys.values()} - {""} | set(MEASURES) <= set(_KNOWN)
 
 
 def test_a_unit_that_no_key_has_yet_is_its_own() -> None:

@@ -11,7 +11,7 @@ from itertools import chain
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
-from tribodyn.mechanism.assembly.pieces import Pieces, pieces_of
+from tribodyn.mechanism.assembly.pieces import Pieces, ends_of, pieces_of
 from tribodyn.mechanism.elements.bristle import resting
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
 from tribodyn.mechanism.frames import GROUND
@@ -86,13 +86,9 @@ class Model:
         return self.pieces.numbers[body]
 
     @cached_property
-    def ends(self) -> tuple[tuple[str, ...], ...]:
-        """Names of the bodies of socket and shaft of joints, springs, loads and legs, in order."""
-        case = self.case
-        joints = (joint.between[:: int(joint.sign)] for joint in case.joints.values())
-        loads = ((GROUND, load.body)[:: -1 if load.frame == "body" else 1] for load in case.loads.values())
-        legs = (leg.bodies for element in self.elements for leg in element.legs)
-        return (*joints, *(spring.between for spring in case.springs.values()), *loads, *legs)
+    def ends(self) -> tuple[Sequence[str], ...]:
+        """Names of the bodies of socket and shaft of all couplings."""
+        return tuple(ends_of(self.case))
 
     def joint(self, number: int) -> JointKeys:
         """Return the keys of a joint."""

@@ -114,7 +114,7 @@ def modes_of_bodies(
 def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> Pieces:
     """Return the pieces of a case, in which some joints make none."""
     links: dict[str, Counter[str]] = {body: Counter() for body in case.bodies}
-    for first, second in _linked(case):
+    for first, second in ends_of(case):
         if first in links and second in links and first != second:
             links[first][second] += 1
             links[second][first] += 1
@@ -145,9 +145,10 @@ def _joins(joint: JointKeys) -> bool:
     return joint.type == Fixed.NAME and GROUND not in joint.between and joint.points[0] == joint.points[1]
 
 
-def _linked(case: MechanismCase) -> Iterator[Sequence[str]]:
-    """Yield the two bodies of all that acts between bodies."""
-    yield from (joint.between for joint in case.joints.values())
+def ends_of(case: MechanismCase) -> Iterator[Sequence[str]]:
+    """Yield the bodies of socket and shaft of joints, springs, loads and legs of elements, in this order."""
+    yield from (joint.between[:: int(joint.sign)] for joint in case.joints.values())
     yield from (spring.between for spring in case.springs.values())
+    yield from ((GROUND, load.body)[:: -1 if load.frame == "body" else 1] for load in case.loads.values())
     for _, _, keys in case.elements():
         yield from (leg.bodies for equation in keys.equations(case.joints) for leg in equation.legs)

@@ -144,19 +144,8 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
     for record, ends in zip(records, model.ends, strict=True):
         record.socket, record.shaft = (model.number(body) % (n + 1) for body in ends)
     for name in (
-        "node",
-        "row_signal",
-        "follows",
-        "effort",
-        "contact",
-        "film",
-        "table",
-        "rows_block",
-        "bodies_block",
-        "first_leg",
-        "next_leg",
-        "opening",
-        "load_of",
+        *("node", "row_signal", "follows", "effort", "contact", "film", "table"),
+        *("rows_block", "bodies_block", "first_leg", "next_leg", "opening", "load_of"),
     ):
         records[name][:] = NONE
     for record, (name, joint) in zip(records, case.joints.items(), strict=False):
