@@ -43,7 +43,8 @@ from tribodyn.mechanism.model.drives_and_loads import (
 )
 from tribodyn.mechanism.model.output_declarations import JointInstants, OutputKeys
 from tribodyn.mechanism.model.parts import ClearanceKeys, JointKeys, PairKeys, SpringKeys, friction_of
-from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, scatter_in, with_copies
+from tribodyn.mechanism.model.patterns import PATTERN, PatternKeys, ScatterKeys, of_copy, scatter_in
+from tribodyn.mechanism.model.repetition import with_copies
 from tribodyn.mechanism.plausible import of_mechanism
 from tribodyn.mechanism.run_keys import ROWS, Integration, ResultKeys, RunKeys
 from tribodyn.mechanisms.mechanism_protocol import plain
@@ -474,6 +475,12 @@ class MechanismCase(_WithElements):
             words = "its tables follow both the angle and the position of this joint: write two loads"
             demand(len({COORDINATE_OF[over] for over in load.joint_axes}) < 2, key, words)
 
+    def at(self, path: str) -> Value | None:
+        """Return the value at a dotted path; of what is repeated as written, else that of the first copy."""
+        found, (table, name, *_) = super().at(path), f"{path}.".split(".")
+        repeated = found is None and f"{name}[1]" in (getattr(self, table, None) or ())
+        return super().at(of_copy(path, 1)) if repeated else found
+
     def rigid(self) -> Self | None:
         """Return the case with rigid bodies; None where no body is elastic."""
         elastic = elastic_keys(self.written)
@@ -486,10 +493,10 @@ class MechanismCase(_WithElements):
         return self.with_elements(lambda keys: keys.without_play)
 
     def without_deviations(self) -> Self:
-        """Return the case with all joints where their points are."""
-        off = {name: joint for name, joint in self.joints.items() if any(joint.deviation)}
-        made = {name: joint.model_copy(update={"deviation": (0.0, 0.0, 0.0)}) for name, joint in off.items()}
-        return self.model_copy(update={"joints": {**self.joints, **made}}) if off else self
+        """Return the case with all joints where their points are, and along their axes."""
+        off = {name: dict.fromkeys(joint.off_drawing, (0.0,) * 3) for name, joint in self.joints.items()}
+        made = {name: self.joints[name].model_copy(update=keys) for name, keys in off.items() if keys}
+        return self.model_copy(update={"joints": {**self.joints, **made}}) if made else self
 
     def with_elements(self, change: Callable[[ElementKeys], ElementKeys]) -> Self:
         """Return the case with each element as ``change`` returns it."""
@@ -552,7 +559,8 @@ class MechanismCase(_WithElements):
         check_output_interval(self.output_interval, self.duration)
         words = "a kinematic analysis has ideal joints in their places; leave it out, or run another analysis"
         for name, joint in self.joints.items() if run.analysis == "kinematic" else ():
-            demand(not any(joint.deviation), f"joints.{name}.deviation", words)
+            for key in joint.off_drawing:
+                demand(False, f"joints.{name}.{key}", words)
         words = 'only a static analysis passes its positions in both directions; give run.analysis = "static"'
         demand(run.directions == "forward" or run.analysis == "static", "run.directions", words)
         for table, name, keys in self.elements():

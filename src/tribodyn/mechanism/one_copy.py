@@ -8,7 +8,8 @@ import xarray as xr
 
 from tribodyn.cases.case import Case, demand, with_entries
 from tribodyn.mechanism.frames import GROUND
-from tribodyn.mechanism.model.patterns import PATTERN, SCATTER, parts_that_name, repeated
+from tribodyn.mechanism.model.patterns import PATTERN, SCATTER
+from tribodyn.mechanism.model.repetition import parts_that_name, repeated
 
 _ROWS: Final = 120  #: Rows of the tables of a carrier's motion.
 

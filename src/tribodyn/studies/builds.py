@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Final, Self, TypeAlias, cast
+from typing import Any, Final, Self, TypeAlias, Unpack, cast
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from tribodyn.studies.archive import remarks
 from tribodyn.studies.plan import POINT, Axis, SweepPlan, plan_of, plan_of_draws, varied_key
 from tribodyn.studies.quadratic_model import quadratic
 from tribodyn.studies.sampling import SAMPLERS
-from tribodyn.studies.sweep import SILENT, Means, Watcher, compute_missing
+from tribodyn.studies.sweep import SILENT, Means, Watcher, Where, compute_missing
 
 INSTANTS: Final = 48  #: Instants of a cycle at which errors are kept.
 LEVELS: Final = (0.5, 0.9, 0.99, 0.997)  #: Shares of builds whose quantiles are given.
@@ -96,8 +96,8 @@ def builds(
     limits: Mapping[str, float] | None = None,
     seed: int = 0,
     directory: str | Path | None = None,
-    workers: int | None = None,
     watcher: Watcher = SILENT,
+    **where: Unpack[Where],
 ) -> Builds:
     """Return numbers of many builds of a case whose copies scatter.
 
@@ -115,8 +115,8 @@ def builds(
         The most that numbers of a build may be, by their names.
     seed
         Of inputs and draws.
-    directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
+    directory, watcher, **where
+        Where runs are kept and computed, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def builds(
     if wrong is not None:
         raise InputError(f'given "{wrong}"; allowed: {", ".join(names)}', key="--limit")
     labels = [f"{label} [{ERROR_UNITS[runs.unit].shown}]" for label in NUMBERS.values()]
-    means, of_build = Means(workers=workers, keep_results=False), runs.of_build
+    means, of_build = Means(**where, keep_results=False), runs.of_build
     errors = runs.alone(means, watcher)
     random, part = np.random.default_rng([seed, 1]), max(draws // _REPLICATES, 1)
     with one_thread():
@@ -294,11 +294,10 @@ class BuildRuns:
         case, n, output = self._case, self.of_build, self._output
         times = f"{', '.join(map(repr, self._instants))} s"
         whole = self._equal().replace({f"outputs.{output}.at.times": times})
-        columns: dict[str, FloatArray] = {}
-        for one, values in zip(case.scattered.values(), self._columns.values(), strict=True):
-            of_builds = np.reshape(values[: self._coupled * n], (-1, n)).T
-            for copy, own in enumerate(of_builds, 1):
-                case.pattern[one.pattern].add_copy(one.key, copy, own, whole.at, columns)
+        first, shape = slice(self._coupled * n), (-1, n)
+        of_builds = {key.path: np.reshape(of[first], shape) for key, of in self._columns.items()}
+        [pattern] = case.pattern.values()
+        columns = pattern.of_copies(of_builds, whole)
         axis = Axis(POINT, {varied_key(whole, path): tuple(own.tolist()) for path, own in columns.items()})
         found = self._computed(plan_of(whole, (axis,)), "together", means, watcher)
         errors = [[self._errors(one, f"{output}[{copy + 1}]") for copy in range(n)] for one in found]

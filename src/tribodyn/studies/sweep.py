@@ -7,7 +7,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean
-from typing import Any, Final
+from typing import Any, Final, TypedDict, Unpack
 
 import xarray as xr
 
@@ -76,6 +76,14 @@ class Arrival:
     warnings: Sequence[str] = ()  #: At the beginning: that points take long, or together much memory.
 
 
+class Where(TypedDict, total=False):
+    """Processes or cluster that a study computes on, as :class:`Means` has them."""
+
+    workers: int | None
+    scheduler: str | None
+    tls: Tls | None
+
+
 @dataclass(frozen=True)
 class Means:
     """Options of a sweep's computation; none of them changes a number."""
@@ -89,6 +97,13 @@ class Means:
     #: Whether each point keeps its whole result beside its key results; by default those of a sweep of a few
     #: points do, see :data:`~tribodyn.results.store.FEW_POINTS`.
     keep_results: bool | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse means that cannot compute."""
+        if self.workers is not None and self.workers < 0:
+            raise InputError(f"given {self.workers}; allowed: 0 or more", key="--workers")
+        if self.tls is not None and self.scheduler is None:
+            raise InputError("certificates are for a scheduler; give its address too", key="--scheduler")
 
 
 @dataclass(frozen=True)
@@ -112,12 +127,10 @@ def sweep(
     method: str = "lhs",
     seed: int = 0,
     directory: str | Path | None = None,
-    workers: int | None = None,
-    scheduler: str | None = None,
-    tls: Tls | None = None,
     retry: bool = False,
     progress: Callable[[Arrival], None] | None = None,
     stop: Callable[[], bool] | None = None,
+    **where: Unpack[Where],
 ) -> xr.Dataset:
     """Simulate a case at many values of its parameters.
 
@@ -135,19 +148,17 @@ def sweep(
     directory
         Where points and merged results are kept; what is there already is not computed again. By default
         nothing is written.
-    workers
-        Processes on this machine, by default one for each processor; 0 computes in this process. A script
-        that uses processes needs ``if __name__ == "__main__":``, as with :mod:`multiprocessing`.
-    scheduler
-        Address of a Dask scheduler to use instead, such as ``"tcp://10.0.0.1:8786"``.
-    tls
-        Certificates for a scheduler whose address begins with ``tls://``.
     retry
         Whether points that failed in an earlier sweep are computed again.
     progress
         Called at the beginning and after every point.
     stop
         Asked several times a second; when true, the sweep ends with the points it has.
+    **where
+        ``workers``: processes on this machine, by default one for each processor; 0 computes in this process.
+        A script that uses processes needs ``if __name__ == "__main__":``, as with :mod:`multiprocessing`.
+        ``scheduler``: address of a Dask scheduler to use instead, such as ``"tcp://10.0.0.1:8786"``, and
+        ``tls``: certificates for one whose address begins with ``tls://``.
 
     Returns
     -------
@@ -160,7 +171,7 @@ def sweep(
         Something asked for cannot be; nothing has been computed.
     """
     plan = make_plan(case_of(case), vary, Sampling(samples, method, seed))
-    means = Means(workers, scheduler, tls, retry)
+    means = Means(**where, retry=retry)
     watcher = Watcher(progress or Watcher.arrived, stop or Watcher.stop)
     return run(plan, None if directory is None else Path(directory), means, watcher)
 
@@ -189,14 +200,10 @@ def run(
     Raises
     ------
     InputError
-        A number of workers or a scheduler is not valid, or the folder holds another sweep.
+        A scheduler does not answer, or the folder holds another sweep.
     TribodynError
         The workers ended; points that had arrived are merged and kept.
     """
-    if means.workers is not None and means.workers < 0:
-        raise InputError(f"given {means.workers}; allowed: 0 or more", key="--workers")
-    if means.tls is not None and means.scheduler is None:
-        raise InputError("certificates are for a scheduler; give its address too", key="--scheduler")
     summaries: dict[str, Summary] = {}
     try:
         compute_missing(plan, directory, means, watcher, summaries)

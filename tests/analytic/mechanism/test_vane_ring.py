@@ -1,6 +1,6 @@
 """The ring of vanes: equal vanes, one of twice the clearance, and the pull of N vanes against that of one."""
 
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ import xarray as xr
 
 import tribodyn as td
 from mebdf.arrays import FloatArray
-from tribodyn.cases.case import Case
+from tribodyn.cases.case import Case, with_entries
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
 from tribodyn.mechanism.sections.charts import joint_forces
@@ -70,6 +70,27 @@ def test_a_hole_off_its_place_turns_its_vane_as_the_lever_does(equal: xr.Dataset
         ring(4, **{"joints.pin[1].deviation": "10, 0, 0 um", "run.analysis": "kinematic"})
 
 
+def test_a_trunnion_tilted_about_its_lever_turns_its_vane(equal: xr.Dataset) -> None:
+    """The pin, h = 10 mm above the trunnion, is d h off across the lever, as a hole may be."""
+    lever = np.array([24.240900475e-3, 43.730752842e-3])
+    length = float(np.linalg.norm(lever))
+    tilt = ", ".join(repr(1e-3 * one) for one in (*(lever / length).tolist(), 0.0))
+    found = td.simulate(ring(4, **{"joints.trunnion[1].tilt": f"{tilt} rad"}))
+    assert found["output_ideal"].values[-1] == pytest.approx(equal["output_ideal"].values[-1], abs=1e-12)
+    moved = (late(found, "output_error") - late(equal, "output_error")).mean(axis=0)
+    whole = 1e-3 * 10e-3 / length
+    assert whole * (lever[1] / length) ** 2 < moved[0] < whole
+    assert np.max(np.abs(moved[1:])) < 0.02 * moved[0]
+
+
+def test_a_lever_turned_on_its_vane_turns_the_vane_back(equal: xr.Dataset) -> None:
+    """The vane is the first body of the joint; the axis of the second of four copies is along x."""
+    found = td.simulate(ring(4, **{"joints.root[2].tilt": "1, 0, 0 mrad"}))
+    moved = late(found, "output_error") - late(equal, "output_error")
+    # The pin stays where it is; tolerances of the integration are 1e-3 of the errors, 5e-4.
+    np.testing.assert_allclose(moved[:, 1], -1e-3, atol=2e-6)
+
+
 def test_where_a_copy_has_no_error_none_is_the_worst_and_none_is_drawn() -> None:
     found = td.simulate(ring(4, **{"joints.trunnion[1].other_point": "0.01, 0, 390 mm"}))
     assert np.isnan(found["output_error"].values).all()
@@ -114,11 +135,69 @@ def test_vanes_stand_around_their_axis_with_the_worst_one_marked() -> None:
     assert np.argmax(np.maximum(one.high, -one.low)) == 2
 
 
-def test_the_pull_of_vanes_is_that_of_one_times_their_number(equal: xr.Dataset) -> None:
-    """Two vanes and four: forces of the ring's own inertia cancel from the difference."""
-    two = td.simulate(ring(2))
-    pull = [np.abs(late(found, "element_force")[:, 0]) for found in (two, equal)]
-    assert pull[1] == pytest.approx(2.0 * pull[0], rel=2e-2)
+def test_the_pull_of_vanes_is_that_of_one_times_their_number() -> None:
+    """The force of the ring's own inertia, which it has without vanes, counts apart."""
+    text = TEMPLATES["vsv-ring"].text.replace(RIGID, "")
+    one = text[: text.index("[pattern.vanes]")] + text[text.index("[bodies.ring]") :]
+    none = one[: one.index("[bodies.vane]")] + one[one.index("[run]") :]
+    shared = {"run.duration": "1 s", "run.output_interval": "20 ms", "solver.rtol": 1e-5}
+    cases = [parse_case(few, "test").replace(shared) for few in (none, one)]
+    cases += [ring(count, **{"solver.rtol": 1e-5}) for count in (2, 4)]
+    empty, *pulls = (late(td.simulate(case), "element_force")[:, 0] for case in cases)
+    assert np.min(pulls[0]) > 16.0
+    for count, pull in ((2, pulls[1]), (4, pulls[2])):
+        # The integration errs by 2e-4 of it; at rtol = 1e-3 by 1e-2, and by 6e-4 between.
+        np.testing.assert_allclose(pull - empty, count * (pulls[0] - empty), rtol=1e-3)
+
+
+def test_a_vane_of_twice_the_clearance_moves_as_alone_on_the_ring_of_equal_ones(equal: xr.Dataset) -> None:
+    """Within what the ring gives way: a slide of it turns a lever (x, y) by x/(x² + y²) of the way at most.
+
+    More than that the ring cannot turn either, since the actuator holds it.
+    """
+    x, y = 24.240900475e-3, 43.730752842e-3
+    loose = td.simulate(ring(4, **{"joints.trunnion[3].clearance.radial": "40 um"}))
+    together = late(loose, "output_error")[:, 2] - late(equal, "output_error")[:, 2]
+    time, slides = np.linspace(0.0, 1.0, 120), [one.sel(joint="guide") for one in (equal, loose)]
+    way = np.interp(time, equal["time"].values, slides[0]["displacement"].values[:, 2])
+    case: Any = ring(4)
+    held = {
+        "drives.slide.joint": "guide",
+        "drives.slide.position.interpolation": "smooth",
+        "drives.slide.position.times": f"{', '.join(map(repr, time.tolist()))} s",
+        "drives.slide.position.values": f"{', '.join(map(repr, way.tolist()))} m",
+    }
+    alone = with_entries(case.one_copy(equal, [0.5]), held, "test")
+    both = [alone.replace({"joints.trunnion.clearance.radial": play}) for play in ("20 um", "40 um")]
+    turns = [late(td.simulate(one).sel(body="vane"), "orientation") for one in both]
+    less, more = (2.0 * np.arctan2(turn[:, 3], turn[:, 0]) for turn in turns)
+    moved = late(slides[1], "displacement")[:, 2] - late(slides[0], "displacement")[:, 2]
+    gives_way = np.abs(moved).max() * x / (x**2 + y**2)
+    assert gives_way < 0.03 * np.abs(together).max()
+    np.testing.assert_allclose(more - less, together, atol=gives_way)
+
+
+def test_two_links_turn_the_ring_as_one_does_and_leave_its_guide_their_difference() -> None:
+    """Of one link the guide bears the whole pull; two on opposite sides are a couple but for the rest."""
+    text = TEMPLATES["vsv-ring"].text
+    link = text[text.index("[bodies.actuator]") : text.index("[bodies.vane]")]
+    for old, new in (
+        *(("actuator", "second"), ("cylinder", "other"), ("piston", "push"), ("drag-link", "drag-link-2")),
+        *((" 420 mm", " -420 mm"), ('"150, ', '"-150, ')),
+    ):
+        link = link.replace(old, new)
+    motion = next(line for line in link.splitlines() if line.startswith("position"))
+    case = ring(4, **{"solver.rtol": 1e-5})
+    pushed = link.replace(motion, 'force = { value = "35 N" }')
+    both = parse_case(f"{case.to_toml()}\n{pushed}", "test")
+    one, two = td.simulate(case), td.simulate(both)
+    assert late(two, "output_error") == pytest.approx(late(one, "output_error"), rel=1e-3)
+    for found, most in ((one, 75.0), (two, 4.0)):
+        links = late(found, "element_force")
+        bearing = late(found.sel(joint="guide"), "reaction_force_global")[:, 0]
+        # The links stay along x within 1e-3 of their force; the ring's inertia takes 5 mN.
+        assert bearing == pytest.approx(links @ [1.0, -1.0][: links.shape[1]], abs=0.1)
+        assert np.abs(bearing).max() < most
 
 
 def test_a_limit_is_of_what_the_drive_gives() -> None:

@@ -5,12 +5,13 @@ from typing import Final
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import tribodyn as td
 from tribodyn.cases.case import Case, with_entries
 from tribodyn.core.errors import InputError
 from tribodyn.mechanism.descriptor import TEMPLATES
-from tribodyn.mechanism.results.copies import worst
+from tribodyn.mechanism.results.copies import why, worst
 from tribodyn.mechanisms.catalogue import MECHANISMS, parse_case
 
 RING: Final = """
@@ -90,6 +91,18 @@ def test_keys_of_one_copy_go_before_those_of_all(ring: Case) -> None:
     found = ring.replace({RADIAL: "30 um", "joints.trunnion[2].clearance.radial": "40 um"})
     assert radials(found) == [3e-5, 4e-5, 3e-5]
     assert ring.at(RADIAL) == 2e-5
+
+
+def test_what_all_copies_share_has_a_value_where_only_copies_hold_it(ring: Case) -> None:
+    """Slopes, tolerances and scatter start from it."""
+    assert ring.at("joints.trunnion.tilt.x") == ring.at("joints.pin.deviation.y") == 0.0
+    assert ring.at("joints.pin.point.x") == 0.024
+    assert ring.at("joints.pin.other_point") is None
+    assert ring.replace({"joints.trunnion.tilt.x": "1 mrad"}).at("joints.trunnion[1].tilt") == (
+        1e-3,
+        0.0,
+        0.0,
+    )
 
 
 def test_values_of_copies_come_from_lists_files_and_distributions(ring: Case, tmp_path: Path) -> None:
@@ -195,6 +208,35 @@ def test_keys_that_scatter_do_not_go_together(ring: Case) -> None:
         assert np.delete(as_first, axis, axis=1) == pytest.approx(0.0, abs=1e-18)
         off.append(np.array(as_first)[:, axis])
     assert np.abs(np.corrcoef(off)[np.triu_indices(3, 1)]).max() < 0.9
+
+
+def test_a_tilt_turns_with_its_copy_and_says_which_copy_is_the_worst(ring: Case) -> None:
+    tilt = {"scatter.tilt.pattern": "vanes", "scatter.tilt.key": "joints.trunnion.tilt.x"}
+    given = ["0.001 rad", "0 rad", "-0.002 rad"]
+    found = with_entries(ring, tilt | {"scatter.tilt.values": given}, "test")
+    turned = Rotation.from_rotvec([[0.0, 2.0 * np.pi * k / 3.0, 0.0] for k in range(3)])
+    expected = turned.apply(np.outer([0.001, 0.0, -0.002], [1.0, 0.0, 0.0]))
+    tilts = [found.at(f"joints.trunnion[{k}].tilt") for k in (1, 2, 3)]
+    np.testing.assert_allclose(tilts, expected, atol=1e-18)
+    # Errors that follow the key in a line, at two times.
+    [sentence] = why(found, np.array([0.0, 0.01]), np.outer([1.0, 2.0], [1e-3, 0.0, -2e-3]))
+    assert sentence.startswith("vane[3] is the copy furthest from the mean: 100% of that by ")
+    assert "by joints.trunnion.tilt.x, -1.3 standard deviations off" in sentence
+
+
+def test_components_of_copies_turn_as_their_vectors_do(ring: Case) -> None:
+    """Those of ways and directions do, and moments of inertia about axes of the body do not."""
+    drawn = {
+        "joints.trunnion.tilt.x": np.array([[1e-3, 2e-3, 3e-3]]),
+        "bodies.vane.inertia.x": np.array([[1e-4, 2e-4, 3e-4]]),
+        "bodies.vane.mass": np.array([[0.1, 0.2, 0.3]]),
+    }
+    found = ring.pattern["vanes"].of_copies(drawn, ring)
+    whole = 2.0 * np.pi / 3.0
+    for axis, share in (("x", np.cos(whole)), ("y", 0.0), ("z", -np.sin(whole))):
+        assert found[f"joints.trunnion[2].tilt.{axis}"] == pytest.approx(2e-3 * share, abs=1e-18)
+    assert [found[f"bodies.vane[3].inertia.{axis}"][0] for axis in "xyz"] == [3e-4, 6e-4, 1e-3]
+    assert found["bodies.vane[2].mass"].tolist() == [0.2]
 
 
 def test_a_hole_off_its_place_is_an_error_at_rest_too(ring: Case) -> None:

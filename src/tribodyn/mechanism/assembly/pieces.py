@@ -142,7 +142,8 @@ def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> Pieces:
 
 def _joins(joint: JointKeys) -> bool:
     """Return whether a joint makes one piece of its bodies."""
-    return joint.type == Fixed.NAME and GROUND not in joint.between and joint.points[0] == joint.points[1]
+    closed = joint.points[0] == joint.points[1] and not any(joint.tilt)
+    return joint.type == Fixed.NAME and GROUND not in joint.between and closed
 
 
 def ends_of(case: MechanismCase) -> Iterator[Sequence[str]]:

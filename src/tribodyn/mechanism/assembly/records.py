@@ -25,7 +25,7 @@ from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.ordering import n_blocks, n_nodes, number_entries, patterns
 from tribodyn.mechanism.assembly.parts_by_number import Model
 from tribodyn.mechanism.elements.element import ForceLaw, Leg
-from tribodyn.mechanism.frames import frame
+from tribodyn.mechanism.frames import frame, tilted
 from tribodyn.mechanism.joints import JOINTS
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import COORDINATE_OF, GIVEN, DriveKeys, LoadKeys
@@ -178,7 +178,7 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
     return records
 
 
-def _place(record: Any, model: Model, points: ArrayLike, axes: tuple[FloatArray, FloatArray]) -> None:
+def _place(record: Any, model: Model, points: ArrayLike, axes: Sequence[FloatArray]) -> None:
     """Fill origins and axes of socket and shaft; ``points`` and ``axes`` as drawn."""
     record.socket_point[:], record.shaft_point[:] = (
         np.array(points) - model.pieces.centres[[record.socket, record.shaft]]
@@ -190,8 +190,9 @@ def _fill_joint(record: Any, model: Model, name: str, joint: JointKeys) -> None:
     """Fill a joint: the rows of its type, and what else it is."""
     first, second = axes_of(model.case, joint)
     kind = JOINTS[model.kind(name)]
-    axes = frame(first, second), kind.shaft_axes(first, second)
+    axes = [frame(first, second), kind.shaft_axes(first, second)]
     turned = 1 if joint.sign > 0.0 else -1
+    axes[turned < 0] = tilted(axes[turned < 0], joint.tilt)
     _place(record, model, joint.points[::turned], axes)
     if name in model.pieces.joints:  # at rest on the ground, for nothing moves in it
         record.socket = record.shaft = len(model.bodies)
@@ -267,7 +268,7 @@ def _fill_elements(records: Any, model: Model, signals: SignalList) -> None:
 
 def _fill_leg(record: Any, model: Model, leg: Leg) -> None:
     """Fill one term of the equation of an element."""
-    _place(record, model, leg.points, (leg.axes, leg.axes))
+    _place(record, model, leg.points, (tilted(leg.axes, leg.tilt), leg.axes))
     record.along[:], record.about, record.length = leg.along, leg.about, leg.length
     if leg.push is not None:
         record.push[:] = leg.push

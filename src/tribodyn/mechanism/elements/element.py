@@ -13,7 +13,7 @@ An element with a force law says what λ is, as a function of the sum q and its 
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Final, Literal, Self
 
 import numpy as np
@@ -67,6 +67,7 @@ class Leg:
     reported: FloatArray | None = None
     #: Force on the second body in the same axes over |λ|, beside that of λ, shape (3,); None for none.
     push: FloatArray | None = None
+    tilt: Vector = (0.0, 0.0, 0.0)  #: Rotation vector by which these axes are off on the first body [rad].
 
 
 @dataclass(frozen=True)
@@ -220,7 +221,7 @@ class OfJointKeys(ElementKeys):
         axis, turns = axis_of(joint), coordinate == "angle"
         points = origin(joint, joint.between[0])
         along = np.zeros(3) if turns else scale * axis
-        return leg(joint.between, points, axis, along, scale if turns else 0.0)
+        return replace(leg(joint.between, points, axis, along, scale if turns else 0.0), tilt=joint.tilt)
 
 
 def article(coordinate: str) -> str:

@@ -22,7 +22,7 @@ from tribodyn.cases.joint_keys import (
 from tribodyn.cases.keys import ASSUMED
 from tribodyn.cases.temperature import Temperature
 from tribodyn.mechanism.joints import JOINTS
-from tribodyn.mechanism.joints.joint_type import JointType
+from tribodyn.mechanism.joints.joint_type import AT_POINT, JointType
 from tribodyn.mechanism.members import foreign_keys, with_own_keys
 from tribodyn.mechanism.shapes import SHAPES, shapes_of
 
@@ -80,6 +80,8 @@ def check_film(joint: Any) -> None:
 
 POINT: Final = '["0 mm", "0 mm", "170 mm"]'
 _LEAST_ANGLE: Final = 1e-3  #: Sine of the least angle between two axes that must not be parallel.
+_MOST_TILT: Final = math.radians(10.0)
+OFF_DRAWING: Final = ("deviation", "tilt")  #: Keys of a joint that the ideal counterpart has not.
 
 
 class _Sizes(NamedGroup):
@@ -205,6 +207,13 @@ class _Joint(NamedGroup):
         "assumed",
         unit="mm",
     )
+    tilt: Vector = vector(
+        "0, 0, 0 deg",
+        "small turns about x, y and z by which its axes are made off on the first body; not so in the ideal "
+        "counterpart",
+        "assumed",
+        unit="deg",
+    )
     axis: Vector | None = vector(
         None,
         "its direction, of any length; of the race of a ball joint with clearance, without it "
@@ -263,6 +272,10 @@ class JointKeys(_OfAllTypes):
         for key, coordinate in (("start_speed", "angle"), ("start_velocity", "position")):
             words = f"{self.kind.named} has no {coordinate} of its own"
             demand(getattr(self, key) is None or coordinate in kind.COORDINATES, key, words)
+        words = f"{kind.named} without a clearance holds no direction that could be off: leave it out"
+        demand(kind.ROWS != AT_POINT or self.clearance is not None or not any(self.tilt), "tilt", words)
+        words = "a tilt is of tolerances, at most 10 deg: draw the joint along another axis"
+        demand(math.hypot(*self.tilt) <= _MOST_TILT, "tilt", words)
 
     def _check_own(self) -> None:
         """Check the keys of single types."""
@@ -321,6 +334,11 @@ class JointKeys(_OfAllTypes):
         """Places on the first and on the second body, as in the model [m]."""
         (x, y, z), off, other = self.point, self.deviation, self.other_point or self.point
         return (x + off[0], y + off[1], z + off[2]) if any(off) else self.point, other
+
+    @property
+    def off_drawing(self) -> list[str]:
+        """The keys by which it is made off the drawing."""
+        return [key for key in OFF_DRAWING if any(getattr(self, key))]
 
     @property
     def shape(self) -> str:

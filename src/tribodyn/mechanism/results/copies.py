@@ -10,7 +10,9 @@ import numpy as np
 
 from mebdf.arrays import FloatArray
 from tribodyn.cases.tables import keys_in
+from tribodyn.cases.units import AXES
 from tribodyn.mechanism.mechanism_case import MechanismCase
+from tribodyn.mechanism.model.parts import OFF_DRAWING
 from tribodyn.results.reading import column, entries, settled
 from tribodyn.results.summary import KeyResult
 from tribodyn.results.variables import ERROR_UNITS
@@ -109,12 +111,11 @@ def _differing(case: MechanismCase) -> dict[str, FloatArray]:
             value = case.at(path)
             if isinstance(value, float):
                 found.setdefault(match[1] + match[3], []).append(value)
-            elif match[3] == ".deviation" and isinstance(value, tuple):
-                name, copy = path.split(".")[1], int(match[2])
-                bodies = [body.partition("[")[0] for body in case.joints[name].between]
-                own = next(one for one in case.pattern.values() if set(bodies) & set(one.bodies))
-                way = own.as_first(copy, value)  # type: ignore[arg-type]
-                for axis, part in zip("xyz", way, strict=True):
+            elif match[3].removeprefix(".") in OFF_DRAWING:
+                bodies = {body.partition("[")[0] for body in case.joints[path.split(".")[1]].between}
+                own = next(one for one in case.pattern.values() if bodies & set(one.bodies))
+                way = own.as_first(int(match[2]), value)  # type: ignore[arg-type]
+                for axis, part in zip(AXES, way, strict=True):
                     rounded = abs(part) <= _SAME * math.hypot(*way)
                     found.setdefault(f"{match[1]}{match[3]}.{axis}", []).append(0.0 if rounded else part)
     return {key: np.array(of) for key, of in found.items() if np.ptp(of) > _SAME * np.max(np.abs(of))}

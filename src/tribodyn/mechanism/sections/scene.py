@@ -15,7 +15,7 @@ from tribodyn.joints.point_contact import FlatWalls
 from tribodyn.joints.shapes import Guide, Slot
 from tribodyn.mechanism.assembly.clearance_surfaces import axes_of
 from tribodyn.mechanism.assembly.skeleton import MM, Skeleton, rotated
-from tribodyn.mechanism.frames import frame
+from tribodyn.mechanism.frames import frame, tilted
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.drives_and_loads import LoadKeys
 from tribodyn.mechanism.model.parts import JointKeys
@@ -204,8 +204,9 @@ def magnified(found: Iterable[dict[str, Any]]) -> dict[str, Any] | None:
 
 def _axes(case: MechanismCase, joint: JointKeys, drawn: Skeleton, orientation: FloatArray) -> FloatArray:
     """Return the axes of a joint at the frames as columns, which its bore carries; shape (n_frames, 3, 3)."""
-    columns = frame(*axes_of(case, joint))
-    carrier = joint.between[0 if joint.sign > 0.0 else 1]
+    columns, by_first = frame(*axes_of(case, joint)), joint.sign > 0.0
+    carrier = joint.between[0 if by_first else 1]
+    columns = tilted(columns, joint.tilt) if by_first else columns
     if carrier not in drawn.bodies:
         return np.broadcast_to(columns, (orientation.shape[0], 3, 3))
     turned = rotated(orientation[:, None, drawn.bodies.index(carrier)], columns.T)
