@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from tribodyn.cli.console import Console
 from tribodyn.cli.interrupt import Interruption, last_words, on_leaving
 from tribodyn.core import platforms
 from tribodyn.core.errors import InputError
@@ -16,6 +17,14 @@ from tribodyn.core.quoting import as_given
 
 if TYPE_CHECKING:
     from tribodyn.cases import Case
+    from tribodyn.studies.sweep import Watcher, Where
+
+    class KeptRuns(Where):
+        """Options of a study that keeps its runs."""
+
+        directory: Path
+        watcher: Watcher
+
 
 ANALYSES: Final = ("static", "kinematic", "vibrations")  #: Analyses that have an option of their own.
 
@@ -52,6 +61,35 @@ def add_changes(parser: ArgumentParser) -> None:
             const=name,
             help=f"short for --set run.analysis={name} of a user-defined mechanism",
         )
+
+
+def add_study_arguments(parser: ArgumentParser, command: str, workers: int | None = None) -> None:
+    """Add CASE, the options that change it, and where results are kept and computed."""
+    add_case_arguments(parser)
+    kept = f"where results go (default: {command}-CASE)"
+    parser.add_argument("-o", "--output", metavar="DIR", help=kept)
+    one = parser.add_mutually_exclusive_group()
+    words = f"processes (default: {'' if workers == 0 else 'one a processor; 0: '}this one alone)"
+    one.add_argument("--workers", metavar="N", type=int, default=workers, help=words)
+    one.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://10.0.0.1:8786")
+    for name, meaning in (
+        ("ca", "certificate of the authority that a scheduler at tls://... is known by, in PEM format"),
+        ("cert", "certificate that the scheduler knows this command by"),
+        ("key", "its private key, unless it stands in the same file"),
+    ):
+        parser.add_argument(f"--tls-{name}", metavar="FILE", help=meaning)
+
+
+def where(args: Namespace) -> Where:
+    """Return the processes or the cluster that a study computes on."""
+    from tribodyn.studies import Tls
+
+    files, tls = (args.tls_ca, args.tls_cert, args.tls_key), None
+    if any(file is not None for file in files):
+        if None in files[:2]:
+            raise InputError("certificates need both --tls-ca and --tls-cert", key="--scheduler")
+        tls = Tls(*files)
+    return {"workers": args.workers, "scheduler": args.scheduler, "tls": tls}
 
 
 def chosen_case(args: Namespace) -> Case:
@@ -226,10 +264,13 @@ def _refused(path: str, reason: str) -> InputError:
 
 
 @contextlib.contextmanager
-def kept_runs(command: str, args: Namespace) -> Iterator[tuple[Path, Interruption]]:
+def kept_runs(command: str, args: Namespace) -> Iterator[KeptRuns]:
     """Reserve the directory of a command that keeps finished runs, and listen for a request to stop."""
+    from tribodyn.studies import Watcher
+
     directory = OutputDirectory(f"{command}-{Path(args.case).stem}" if args.output is None else args.output)
     message = "stopping; finished runs are kept; interrupt again to leave at once"
     with directory.reserved(), Interruption(message) as stop:
         last_words(f"aborted; runs that had finished are kept in {os.fspath(directory.path)}")
-        yield directory.path, stop
+        watcher = Watcher(stop=stop, note=Console.of(args).note)
+        yield {"directory": directory.path, "watcher": watcher, **where(args)}

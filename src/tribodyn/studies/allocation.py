@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Unpack
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from tribodyn.studies.quadratic_model import Choice, QuadraticModel, Scattering,
 from tribodyn.studies.sampling import SAMPLERS
 from tribodyn.studies.search import Limit, limit, readable
 from tribodyn.studies.statistics import Share, share_of
-from tribodyn.studies.sweep import SILENT, Means, Watcher, run
+from tribodyn.studies.sweep import SILENT, Means, Watcher, Where, run
 from tribodyn.studies.tolerances import Tolerance, read_tolerances
 
 #: Probabilities for which the least cost is given beside the one asked for.
@@ -63,8 +63,8 @@ def allocate(
     *,
     samples: int = 500,
     directory: str | Path | None = None,
-    workers: int | None = None,
     watcher: Watcher = SILENT,
+    **where: Unpack[Where],
 ) -> Allocation:
     """Return the cheapest tolerances with which limits are kept with a probability.
 
@@ -80,8 +80,8 @@ def allocate(
         File of the tolerances, see :mod:`tribodyn.studies.tolerances`.
     samples
         Fresh simulations that confirm the choice.
-    directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
+    directory, watcher, **where
+        Where runs are kept and computed, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def allocate(
     if not 0.0 < probability < 1.0:
         raise InputError(f"given {probability:g}; allowed: above 0 and below 1", key="--probability")
     asked = tuple(limit(text, chosen, "--limit") for text in limits)
-    means = Means(workers=workers, keep_results=False)
+    means = Means(**where, keep_results=False)
     tolerances = read_tolerances(cost, chosen)
     runs = _Runs(chosen, asked, tolerances, None if directory is None else Path(directory))
     runs.simulate(runs.design(), means, watcher)

@@ -220,7 +220,8 @@ def _numbers(rows: Sequence[Summary], kind: str) -> list[str]:
 
 def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float], type, dict[str, Any]]:
     """Return the values of a key result over all points; a point that failed has none."""
-    values = [math.nan if row.get("failure") else _number(row.get(name)) for row in rows]
+    found = [math.nan if row.get("failure") else row.get(name) for row in rows]
+    values = [float(one) if isinstance(one, int | float) else math.nan for one in found]
     one = known([name], kind).get(name)
     if one is None:
         return values, float, {"long_name": name}
@@ -230,10 +231,6 @@ def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float],
 
 def _text(about_number: object) -> str:
     return "; ".join(about_number) if isinstance(about_number, list) else str(about_number)
-
-
-def _number(value: object) -> float:
-    return float(value) if isinstance(value, int | float) else math.nan
 
 
 def _coordinates(plan: SweepPlan) -> dict[str, xr.Variable]:

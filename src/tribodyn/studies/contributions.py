@@ -19,7 +19,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Unpack
 
 import numpy as np
 import xarray as xr
@@ -36,7 +36,7 @@ from tribodyn.results.variables import ERROR_UNITS
 from tribodyn.simulation import simulate
 from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of
-from tribodyn.studies.sweep import SILENT, Means, Watcher, run
+from tribodyn.studies.sweep import SILENT, Means, Watcher, Where, run
 
 _SWITCH: Final = "joints.{}.clearance.ideal"
 BENDING: Final = "elastic bodies"  #: In the place of a joint, what bends with all joints ideal.
@@ -66,7 +66,7 @@ class OutputShares:
 
 
 def contributions(
-    case: AnyCase, *, directory: str | Path, workers: int | None = None, watcher: Watcher = SILENT
+    case: AnyCase, *, directory: str | Path, watcher: Watcher = SILENT, **where: Unpack[Where]
 ) -> tuple[OutputShares, ...]:
     """Return the parts of the error of each output of a case by its joints.
 
@@ -74,8 +74,8 @@ def contributions(
     ----------
     case
         A case with outputs and joints with clearance, the name of a built-in one, or a file.
-    directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
+    directory, watcher, **where
+        Where runs are kept and computed, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def contributions(
     """
     chosen = case_of(case)
     switches = real_joints(chosen)
-    means = Means(workers=workers, keep_results=True)
+    means = Means(**where, keep_results=True)
 
     def simulated(one: Case, real: NDArray[np.bool_]) -> list[xr.Dataset]:
         """Return results with some joints real, ``real`` of shape (n_runs, n_joints)."""

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, Unpack
 
 import numpy as np
 import xarray as xr
@@ -21,7 +21,7 @@ from tribodyn.mechanisms.catalogue import AnyCase, case_of
 from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import Axis, SweepPlan, plan_of, varied_key
 from tribodyn.studies.search import matching, no_run_has, read_number, readable
-from tribodyn.studies.sweep import SILENT, Means, Watcher, run
+from tribodyn.studies.sweep import SILENT, Means, Watcher, Where, run
 from tribodyn.studies.variation import SOURCE
 
 LADDER: Final = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2)  #: Steps, as shares of a value.
@@ -52,8 +52,8 @@ def slopes(
     of: Sequence[str],
     *,
     directory: str | Path | None = None,
-    workers: int | None = None,
     watcher: Watcher = SILENT,
+    **where: Unpack[Where],
 ) -> tuple[Slope, ...]:
     """Return the slopes of key results over keys of a case.
 
@@ -66,8 +66,8 @@ def slopes(
         the value.
     of
         Names of key results.
-    directory, workers, watcher
-        Where runs are kept and on how many processes, as for :func:`sweep`; who listens and may stop them.
+    directory, watcher, **where
+        Where runs are kept and computed, as for :func:`sweep`; who listens and may stop them.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def slopes(
     names = [matching(name, chosen, "--of")[0] for name in of]
     ladders = [_ladder(chosen, path, longest) for path, longest in asked.items()]
     place = None if directory is None else Path(directory)
-    found = run(_plan(chosen, ladders), place, Means(workers=workers, keep_results=False), watcher)
+    found = run(_plan(chosen, ladders), place, Means(**where, keep_results=False), watcher)
     return tuple(slope for name in names for slope in _slopes_of(numbers_of(found, name), name, ladders))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Final, Self
+from typing import Final, Self, Unpack
 
 import xarray as xr
 
@@ -21,7 +21,7 @@ from tribodyn.mechanisms.results import key_results_of_case
 from tribodyn.results.summary import KeyResult, name_today
 from tribodyn.studies.archive import refuse_failures
 from tribodyn.studies.plan import make_plan, varied_key
-from tribodyn.studies.sweep import Means, Watcher, run
+from tribodyn.studies.sweep import Means, Watcher, Where, run
 from tribodyn.studies.variation import SOURCE, written
 
 WITHIN: Final = 0.01  #: Accuracy of the root, as a share of the range.
@@ -188,7 +188,7 @@ def find(
     *,
     within: float = WITHIN,
     directory: str | Path | None = None,
-    workers: int = 0,
+    **where: Unpack[Where],
 ) -> float:
     """Return the last value of a parameter at which a key result keeps a limit.
 
@@ -207,8 +207,8 @@ def find(
         How near to the limit the value is found, as a share of the range.
     directory
         Where runs are kept; what is there already is not computed again. By default nowhere.
-    workers
-        Processes on this machine; 0 computes in this process.
+    **where
+        ``workers``, by default 0, ``scheduler`` and ``tls``, as for :func:`sweep`.
 
     Returns
     -------
@@ -226,7 +226,8 @@ def find(
     chosen = case_of(case)
     asked = question(chosen, vary, between, limit(until, chosen, "until"))
     with TemporaryDirectory() as place:
-        means = Means(workers=workers, keep_results=False)
+        where.setdefault("workers", 0)
+        means = Means(**where, keep_results=False)
         return Search(asked, Path(directory or place), means, Watcher()).root(within)
 
 

@@ -1,4 +1,4 @@
-"""A sweep on a Dask scheduler and workers that were started on their own and are known by an address."""
+"""Studies on a Dask scheduler and workers that were started on their own and are known by an address."""
 
 import json
 import subprocess
@@ -12,12 +12,30 @@ import psutil
 import pytest
 from distributed import Security
 
+from tribodyn.mechanism.descriptor import TEMPLATES
+
 SWEEP = [
     *(sys.executable, "-m", "tribodyn", "sweep", "vsv", "--summary-only", "--quiet", "--json"),
     *("--vary", "joint.clearance=20,30 um", "--vary", "mechanism.formulation=exact,paper"),
     *("--set", "run.duration=50 ms"),
 ]
 EFFORT = {"wall_time_s", "real_time_factor"}
+KEY, NUMBER = "joints.wrist.clearance.radial", "error_rms_um_slider"
+CRANK = ("slider-crank", "--set", "run.duration=20 ms", "--set", "run.output_interval=2 ms")
+#: All that computes many cases and keeps them.
+STUDIES = {
+    "slopes": (*CRANK, "--vary", KEY, "--of", NUMBER),
+    "contributions": (*CRANK, "--no-figures"),
+    "allocate": (
+        *(*CRANK, "--limit", f"{NUMBER}=17.5", "--probability", "0.9"),
+        *("--cost", "costs.toml", "--samples", "6"),
+    ),
+    "builds": (
+        *("ring.toml", "--copies", "6", "--draws", "100", "--coupled", "2", "--no-figures"),
+        *("--set", "run.duration=0.1 s", "--set", "run.output_interval=20 ms"),
+    ),
+}
+COSTS = f'[wrist]\nkey = "{KEY}"\nwidths = {{"4 um" = 1, "2 um" = 2}}\n'
 
 pytestmark = pytest.mark.long
 
@@ -87,6 +105,22 @@ def test_the_same_sweep_gives_the_same_numbers_on_a_cluster(address: str, tmp_pa
     # Results travel: only the client writes, and where it was told.
     assert {path.name for path in tmp_path.iterdir() if path.is_dir()} >= {"there", "here"}
     assert (tmp_path / "there" / "points.jsonl").read_text(encoding="utf-8").count("\n") == len(there)
+
+
+@pytest.mark.long(minutes=3)
+def test_all_studies_give_the_same_numbers_on_a_cluster(address: str, tmp_path: Path) -> None:
+    (tmp_path / "costs.toml").write_text(COSTS, encoding="utf-8")
+    rigid = TEMPLATES["vsv-ring"].text.replace('elastic = "beam"\n', "")
+    (tmp_path / "ring.toml").write_text(rigid, encoding="utf-8")
+    for name, options in STUDIES.items():
+        command = [sys.executable, "-m", "tribodyn", name, *options, "--quiet", "--json"]
+        there, here = (
+            subprocess.run([*command, *where], cwd=tmp_path, capture_output=True, text=True, check=True)
+            for where in (["--scheduler", address, "-o", f"{name}-there"], ["--workers", "0", "-o", name])
+        )
+        found, expected = (json.loads(one.stdout) for one in (there, here))
+        assert str(found).replace(f"{name}-there", name) == str(expected)
+        assert (tmp_path / f"{name}-there").is_dir()
 
 
 def test_a_scheduler_that_goes_away_loses_no_point_that_had_finished(address: str, tmp_path: Path) -> None:

@@ -160,6 +160,25 @@ def test_bad_input_names_the_key_and_leaves_nothing(options, named, in_empty_dir
     assert list(in_empty_directory.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("study", "options"),
+    [
+        ("slopes", ["--vary", "joint.clearance", "--of", "vane_angle_error_max_deg"]),
+        ("find", ["--vary", "joint.clearance=20..30 um", "--until", "vane_angle_error_max_deg=0.03"]),
+    ],
+)
+def test_other_studies_know_a_scheduler_as_sweeps_do(study, options, in_empty_directory, simulated, capsys):
+    for where, named in (
+        (["--scheduler", "nonsense"], "no scheduler answers there"),
+        (["--scheduler", "tcp://127.0.0.1:1", "--tls-ca", "ca.pem"], "certificates need both"),
+        (["--workers", "-1"], "--workers: given -1"),
+    ):
+        assert main([study, "vsv", "--quiet", *options, *where]) == 2
+        assert named in capsys.readouterr().err
+    assert simulated == []
+    assert list(in_empty_directory.iterdir()) == []
+
+
 def test_a_scheduler_without_dask_says_what_to_install(simulated, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert main(["sweep", "vsv", "--vary", "joint.clearance=20 um", "--scheduler", "tcp://127.0.0.1:1"]) == 2

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.options import add_case_arguments, chosen_case, kept_runs
+from tribodyn.cli.options import add_study_arguments, chosen_case, kept_runs
 from tribodyn.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ EXAMPLE = "tribodyn allocate slider-crank --limit error_rms_um_slider=25 --proba
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``allocate``."""
-    add_case_arguments(parser)
+    add_study_arguments(parser, "allocate")
     parser.add_argument(
         "--limit",
         metavar="NAME=LIMIT",
@@ -34,31 +34,20 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--samples", metavar="N", type=int, default=500, help="runs that confirm it (default: %(default)s)"
     )
-    parser.add_argument("-o", "--output", metavar="DIR", help="where runs are kept (default: allocate-CASE)")
-    parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 
 def execute(args: Namespace) -> int:
     """Find the cheapest choice, confirm it, and print it."""
-    from tribodyn.studies import Watcher, allocate
+    from tribodyn.studies import allocate
     from tribodyn.studies.allocation import CHOSEN
 
     if args.samples < 1:
         raise InputError(f"given {args.samples}; allowed: 1 or more", key="--samples")
     case, console = chosen_case(args), Console.of(args)
-    with kept_runs("allocate", args) as (directory, stop):
-        found = allocate(
-            case,
-            args.limit,
-            args.probability,
-            args.cost,
-            samples=args.samples,
-            directory=directory,
-            workers=args.workers,
-            watcher=Watcher(stop=stop, note=console.note),
-        )
+    with kept_runs("allocate", args) as kept:
+        found = allocate(case, args.limit, args.probability, args.cost, samples=args.samples, **kept)
     _tell(found, args.probability, console)
-    console.say(f"The case with these tolerances is {directory / CHOSEN}")
+    console.say(f"The case with these tolerances is {kept['directory'] / CHOSEN}")
     if console.json:
         show_json(_as_json(found))
     return 0

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from tribodyn.cli.console import Console, show_json
 from tribodyn.cli.options import (
     FIGURES,
-    add_case_arguments,
+    add_study_arguments,
     changes,
     chosen_case,
     kept_runs,
@@ -33,7 +33,7 @@ EXAMPLE = "tribodyn builds ring.toml --copies 400 --draws 100000 --limit copies_
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``builds``."""
-    add_case_arguments(parser)
+    add_study_arguments(parser, "builds")
     for option, default, words in (
         ("--copies", 4000, "copies that are simulated alone"),
         ("--draws", 1_000_000, "builds that are drawn from them"),
@@ -51,23 +51,21 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=[],
         help="the most that a number of a build may be; the share beyond it is printed; may be repeated",
     )
-    parser.add_argument("-o", "--output", metavar="DIR", help="where runs are kept (default: builds-CASE)")
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw no figures")
-    parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 
 def execute(args: Namespace) -> int:
     """Simulate copies, draw builds, and print their numbers."""
-    if args.workers != 0:
+    if args.workers != 0 and args.scheduler is None:
         # It imports and loads while this process does, and simulates equal copies.
         fork_server.start(name=args.case, changes=changes(args))
-    from tribodyn.studies import Watcher, builds
+    from tribodyn.studies import builds
 
     for option, least in (("copies", 2), ("draws", 100), ("coupled", 0), ("seed", 0)):
         if getattr(args, option) < least:
             raise InputError(f"given {getattr(args, option)}; allowed: {least} or more", key=f"--{option}")
     case, console = chosen_case(args), Console.of(args)
-    with kept_runs("builds", args) as (directory, stop):
+    with kept_runs("builds", args) as kept:
         found = builds(
             case,
             copies=args.copies,
@@ -75,15 +73,13 @@ def execute(args: Namespace) -> int:
             coupled=args.coupled,
             limits=dict(map(_limit, args.limits)),
             seed=args.seed,
-            directory=directory,
-            workers=args.workers,
-            watcher=Watcher(stop=stop, note=console.note),
+            **kept,
         )
         if args.figures:
-            _draw(found, case.title, directory / FIGURES)
+            _draw(found, case.title, kept["directory"] / FIGURES)
     _tell(found, console)
     if args.figures:
-        console.say(f"\nfigures are in {os.fspath(directory / FIGURES)}{os.sep}")
+        console.say(f"\nfigures are in {os.fspath(kept['directory'] / FIGURES)}{os.sep}")
     if console.json:
         show_json(_as_json(found))
     return 0
@@ -108,7 +104,8 @@ def _draw(found: Builds, title: str, folder: Path) -> None:
     from tribodyn.figures.chart import save
 
     folder.mkdir(exist_ok=True)
-    save(draw(found.numbers, title), folder, "builds")
+    numbers = [(one.label, one.quantiles, one.drawn, one.together) for one in found.numbers]
+    save(draw(numbers, title), folder, "builds")
 
 
 def _tell(found: Builds, console: Console) -> None:

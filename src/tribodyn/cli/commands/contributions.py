@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.options import FIGURES, add_case_arguments, chosen_case, kept_runs
+from tribodyn.cli.options import FIGURES, add_study_arguments, chosen_case, kept_runs
 
 if TYPE_CHECKING:
     from tribodyn.studies import OutputShares
@@ -22,30 +22,25 @@ _NOTHING: Final = 1.0e-9  #: Error of a joint over that of all that is rounding.
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``contributions``."""
-    add_case_arguments(parser)
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", help="where runs are kept (default: contributions-CASE)"
-    )
+    add_study_arguments(parser, "contributions")
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw no figures")
-    parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 
 def execute(args: Namespace) -> int:
     """Simulate each joint alone and all together, and print the shares."""
-    from tribodyn.studies import Watcher, contributions
+    from tribodyn.studies import contributions
     from tribodyn.studies.contributions import real_joints
 
     case, console = chosen_case(args), Console.of(args)
     real_joints(case)
-    with kept_runs("contributions", args) as (directory, stop):
-        watcher = Watcher(stop=stop, note=console.note)
-        found = contributions(case, directory=directory, workers=args.workers, watcher=watcher)
+    with kept_runs("contributions", args) as kept:
+        found = contributions(case, **kept)
         if args.figures:
-            _draw(found, case.title, directory / FIGURES)
+            _draw(found, case.title, kept["directory"] / FIGURES)
     for one in found:
         _tell(one, console)
     if args.figures:
-        console.say(f"\nfigures are in {os.fspath(directory / FIGURES)}{os.sep}")
+        console.say(f"\nfigures are in {os.fspath(kept['directory'] / FIGURES)}{os.sep}")
     if console.json:
         show_json({one.output: _as_json(one) for one in found})
     return 0

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.options import add_case_arguments, chosen_case, kept_runs, typed, without_quotes
+from tribodyn.cli.options import add_study_arguments, chosen_case, kept_runs, typed, where, without_quotes
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given
 
@@ -23,7 +24,7 @@ EXAMPLE = (
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``find``."""
-    add_case_arguments(parser)
+    add_study_arguments(parser, "find", workers=0)
     parser.add_argument(
         "--vary", metavar="PATH=A..B", required=True, help='the range to search: joint.clearance="10..60 um"'
     )
@@ -41,17 +42,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=1.0,
         help="how near, as a share of the range (default: %(default)s)",
     )
-    parser.add_argument("-o", "--output", metavar="DIR", help="where runs are kept (default: find-CASE)")
-    parser.add_argument(
-        "--workers", metavar="N", type=int, default=0, help="processes (default: this one alone)"
-    )
 
 
 def execute(args: Namespace) -> int:
     """Search, and say what was found."""
     from tribodyn.studies import Means
     from tribodyn.studies.search import Search, limit, question
-    from tribodyn.studies.sweep import Watcher
 
     if not 0.0 < args.within < 100.0:
         raise InputError(f"given {args.within:g}; allowed: above 0 and below 100", key="--within")
@@ -70,9 +66,9 @@ def execute(args: Namespace) -> int:
         if arrival.point is not None:
             console.note(f"tried {arrival.point.label}")
 
-    with kept_runs("find", args) as (directory, stop):
-        watcher = Watcher(arrived, stop, console.note)
-        search = Search(asked, directory, Means(workers=args.workers, keep_results=False), watcher)
+    with kept_runs("find", args) as kept:
+        watcher = replace(kept["watcher"], arrived=arrived)
+        search = Search(asked, kept["directory"], Means(**where(args), keep_results=False), watcher)
         root = search.root(args.within / 100.0)
         search.dataset()
     _tell(search, root, console)

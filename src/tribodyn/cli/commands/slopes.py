@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from tribodyn.cli.console import Console, show_json
-from tribodyn.cli.options import add_case_arguments, chosen_case, kept_runs, typed, without_quotes
+from tribodyn.cli.options import add_study_arguments, chosen_case, kept_runs, typed, without_quotes
 
 if TYPE_CHECKING:
     from tribodyn.studies import Slope
@@ -18,7 +18,7 @@ EXAMPLE = "tribodyn slopes slider-crank --vary joints.wrist.clearance.radial --o
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``slopes``."""
-    add_case_arguments(parser)
+    add_study_arguments(parser, "slopes")
     parser.add_argument(
         "--vary",
         metavar="PATH[=STEP]",
@@ -33,20 +33,17 @@ def add_arguments(parser: ArgumentParser) -> None:
         required=True,
         help="a number of summary.json; may be given again",
     )
-    parser.add_argument("-o", "--output", metavar="DIR", help="where runs are kept (default: slopes-CASE)")
-    parser.add_argument("--workers", metavar="N", type=int, help="processes (default: one a processor)")
 
 
 def execute(args: Namespace) -> int:
     """Take the differences, and print them."""
-    from tribodyn.studies import Watcher, slopes
+    from tribodyn.studies import slopes
 
     case, console = chosen_case(args), Console.of(args)
     parts = [[without_quotes(part) for part in typed(text).partition("=")] for text in args.vary]
     keys = {path: step or None for path, _, step in parts}
-    with kept_runs("slopes", args) as (directory, stop):
-        watcher = Watcher(stop=stop, note=console.note)
-        found = slopes(case, keys, args.of, directory=directory, workers=args.workers, watcher=watcher)
+    with kept_runs("slopes", args) as kept:
+        found = slopes(case, keys, args.of, **kept)
     for number in dict.fromkeys(one.number for one in found):
         console.say(f"\n{number}, change for 1 % of the key:")
         for one in found:

@@ -17,10 +17,11 @@ from tribodyn.cli.options import POINTS as POINTS_FOLDER
 from tribodyn.cli.options import (
     REPORT,
     OutputDirectory,
-    add_case_arguments,
+    add_study_arguments,
     changes,
     chosen_case,
     typed,
+    where,
     without_quotes,
 )
 from tribodyn.cli.pictures import add_arguments as add_drawing_arguments
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from tribodyn.cases import Case
-    from tribodyn.studies import Arrival, Means, SweepPlan, Tls
+    from tribodyn.studies import Arrival, Means, SweepPlan
 
 HELP = "simulate a case at many values of its parameters, on all processors or on a Dask cluster"
 EXAMPLE = "tribodyn sweep slider-crank --vary joints.wrist.clearance.radial='20 um:40 um:5 um' --workers 2"
@@ -43,7 +44,7 @@ _STOPPING: Final = "stopping; finished points are kept; interrupt again to leave
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of ``sweep``."""
-    add_case_arguments(parser)
+    add_study_arguments(parser, "sweep")
     parser.add_argument(
         "--vary",
         metavar="PATH=VALUES",
@@ -76,18 +77,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="lhs (Latin hypercube), sobol, or saltelli: sensitivities, N (parameters + 2) points",
     )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="equal seeds give equal samples")
-    parser.add_argument("-o", "--output", metavar="DIR", help="where results go (default: sweep-CASE)")
-    where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--workers", metavar="N", type=int, help="processes (default: one a processor; 0: this one alone)"
-    )
-    where.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://10.0.0.1:8786")
-    for name, meaning in (
-        ("ca", "certificate of the authority that a scheduler at tls://... is known by, in PEM format"),
-        ("cert", "certificate that the scheduler knows this command by"),
-        ("key", "its private key, unless it stands in the same file"),
-    ):
-        parser.add_argument(f"--tls-{name}", metavar="FILE", help=meaning)
     add_drawing_arguments(parser)
     again = parser.add_mutually_exclusive_group()
     again.add_argument("--retry", action="store_true", help="compute again the points that failed before")
@@ -118,7 +107,7 @@ def execute(args: Namespace) -> int:
     shown = _shown(args.show, case)
     limits = [limit(text, case, "--limit", least=False) for text in args.limits]
     plan = make_plan(case, _variations(args.vary), Sampling(args.samples, args.method, args.seed))
-    means = Means(args.workers, args.scheduler, _tls(args), args.retry, args.fresh, args.whole)
+    means = Means(**where(args), retry=args.retry, fresh=args.fresh, keep_results=args.whole)
     directory = OutputDirectory(folder)
     with directory.reserved():
         with Interruption(_STOPPING) as interruption:
@@ -181,17 +170,6 @@ def _shown(asked: str | None, case: Case) -> list[str]:
                 f"{as_given(name)}; not a key result; {nearest(name, known)}. {LISTED}", key="--show"
             )
     return names
-
-
-def _tls(args: Namespace) -> Tls | None:
-    """Return the certificates, None where there are none."""
-    if (args.tls_ca, args.tls_cert, args.tls_key) == (None, None, None):
-        return None
-    if args.tls_ca is None or args.tls_cert is None:
-        raise InputError("certificates need both --tls-ca and --tls-cert", key="--scheduler")
-    from tribodyn.studies import Tls
-
-    return Tls(args.tls_ca, args.tls_cert, args.tls_key)
 
 
 def _variations(texts: list[str]) -> dict[str, str]:
