@@ -175,10 +175,11 @@ def with_shared_unit(texts: Sequence[str]) -> list[str]:
         unit = unit_of(texts[-1]) if texts else ""
     except UnitProblem:
         unit = ""
-    return [f"{text} {unit}" if unit and _is_number(text) else text for text in texts]
+    return [f"{text} {unit}" if unit and is_number(text) else text for text in texts]
 
 
-def _is_number(text: str) -> bool:
+def is_number(text: str) -> bool:
+    """Tell whether a text is a number without a unit."""
     try:
         float(text)
     except ValueError:

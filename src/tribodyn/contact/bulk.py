@@ -192,10 +192,8 @@ class Bulk:
     def levels(self) -> tuple[ContactTable, ...]:
         """The tables of all levels, made once for equal bodies."""
         key = id(self.table), self.roughness, self.softest, self.loss
-        return _levels.made(key, lambda: (self.table, self._made_levels()))[1]
-
-    def _made_levels(self) -> tuple[ContactTable, ...]:
-        return tuple(self.on(self.softest * (k / LEVELS) ** 2) for k in range(LEVELS + 1))
+        softest = (self.softest * (k / LEVELS) ** 2 for k in range(LEVELS + 1))
+        return _levels.made(key, lambda: (self.table, tuple(map(self.on, softest))))[1]
 
     def of_arc(self, gap: float, clearance: float, radius: float) -> float:
         """Return the compliance of an untilted shaft in its bore [m/Pa].

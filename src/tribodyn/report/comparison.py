@@ -31,11 +31,10 @@ def curves_over_each_other(
     """Return the chapter with the curves of all points; none of many, or where results were not kept."""
     if folder is None or not 2 <= len(points) <= MOST:
         return []
-    runs = {
-        _name(axes, number): read(folder / POINTS / point.name)
-        for number, point in enumerate(points)
-        if _kept(folder, point)
-    }
+    varied = [axis for axis in axes if axis.parameter]
+    names = [", ".join(f"{axis.label}: {axis.texts[k]}" for axis in varied) for k in range(len(points))]
+    kept = [(name, point) for name, point in zip(names, points, strict=True) if _kept(folder, point)]
+    runs = {name: read(folder / POINTS / point.name) for name, point in kept}
     return [chapter_of(runs)] if len(runs) > 1 else []
 
 
@@ -52,11 +51,6 @@ def _kept(folder: Path, point: ParallelPoint) -> bool:
     place = folder / POINTS / point.name
     inside = Path(point.name).name == point.name and not place.is_symlink()
     return inside and (place / RESULT).is_file()
-
-
-def _name(axes: Sequence[ParallelAxis], number: int) -> str:
-    """Return the changes that lead to a point."""
-    return ", ".join(f"{axis.label}: {axis.texts[number]}" for axis in axes if axis.parameter)
 
 
 #: Groups of key results that are of each whole run; all others are of the stretch that the runs share.

@@ -93,7 +93,8 @@ def write_text(scan: Scan, path: Path) -> None:
         The file cannot be written.
     """
     spacing = ", ".join(f"{step!r} m" for step in reversed(scan.spacing))
-    rows = (",".join(_written(value) for value in row) for row in np.atleast_2d(scan.heights))
+    heights = np.atleast_2d(scan.heights).tolist()
+    rows = (",".join("" if math.isnan(one) else repr(one) for one in row) for row in heights)
     path.write_text("\n".join(["# unit: m", f"# spacing: {spacing}", *rows]) + "\n", encoding="utf-8")
 
 
@@ -224,7 +225,3 @@ def _both(unit: str | None) -> tuple[str | None, str | None]:
 
 def _lacking(name: str, example: str) -> str:
     return f'the file does not say it; write "# {name}: {example}" in its first line, or give --{name}'
-
-
-def _written(value: float) -> str:
-    return "" if math.isnan(value) else repr(float(value))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 import numpy as np
 
 from mebdf.arrays import FloatArray
-from tribodyn.cases.units import from_si, si_unit, to_si, unit_of
+from tribodyn.cases.units import from_si, is_number, si_unit, to_si, unit_of
 from tribodyn.core.errors import InputError
 from tribodyn.core.quoting import as_given, meant
 from tribodyn.mechanisms.catalogue import load_case
@@ -65,7 +65,7 @@ class Input:
         """The band as text; empty where there is none."""
         if self.low == self.high:
             return ""
-        unit = unit_of(self.text) if not _is_number(self.text) else ""
+        unit = unit_of(self.text) if not is_number(self.text) else ""
         low, high = (from_si(end, unit) if unit else f"{end:g}" for end in (self.low, self.high))
         return f"{low} to {high}"
 
@@ -180,14 +180,6 @@ def chosen(names: list[str]) -> Iterator[ValidationSet]:
 def index() -> str:
     """Return the index of the data, which holds the rule and the bands of all sets."""
     return (files(__package__) / "README.md").read_text(encoding="utf-8")
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _si(value: str | float) -> float:

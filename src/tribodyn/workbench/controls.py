@@ -134,18 +134,14 @@ def _matching(case: Case, keys: Mapping[str, Key], patterns: Sequence[str]) -> I
     for pattern in patterns:
         for path, key in keys.items():
             value = case.at(path) if matches(path, pattern) else None
-            if value is not None and _has_course(key, value):
+            listed = bool(key.choices) or key.kind == "switch"
+            if value is not None and (listed or track(key, _number(value)) is not None):
                 yield path
 
 
 def matches(path: str, pattern: str) -> bool:
     """Tell whether a path has as many parts as a pattern, and each fits."""
     return path.count(".") == pattern.count(".") and fnmatchcase(path, pattern)
-
-
-def _has_course(key: Key, value: Value) -> bool:
-    """Tell whether a slider or a list can give other values."""
-    return bool(key.choices) or key.kind == "switch" or track(key, _number(value)) is not None
 
 
 def text(key: Key, value: Value | None) -> str:

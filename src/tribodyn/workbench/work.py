@@ -124,7 +124,8 @@ def distribution(case: Case, order: Mapping[str, Any], progress: Progress, stop:
     copies = max(_COPIES, 4 * scattered**2, *(one.count for one in getattr(case, "pattern", {}).values()))
     found = builds(case, copies=copies, draws=_DRAWS, workers=0, watcher=Watcher(stop=stop))
     content = BytesIO()
-    draw(found.numbers, case.title).savefig(content, format="svg", metadata={"Date": None})
+    numbers = [(one.label, one.quantiles, one.drawn, one.together) for one in found.numbers]
+    draw(numbers, case.title).savefig(content, format="svg", metadata={"Date": None})
     return content.getvalue()
 
 

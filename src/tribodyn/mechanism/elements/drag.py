@@ -27,22 +27,16 @@ class Drag(base.ElementKeys):
     FORCE: ClassVar[str] = "force on the body along the velocity of its point: below zero"
     MOMENT: ClassVar[str] = "none"
     LAW: ClassVar = quadratic
-    EXAMPLE: ClassVar[str] = """
-case = "mechanism"
-run.duration = "50 ms"
-[bodies]
-arm = { mass = "1 kg", centre = "0, 0, 0 mm", inertia = "3e-3, 3e-3, 5e-3 kg m^2" }
-[joints]
-input = { type = "revolute", between = ["ground", "arm"], point = "0, 0, 0 mm", axis = [0, 0, 1], start_speed = "300 rpm" }
-[drags.vane]
+    EXAMPLE: ClassVar[str] = (
+        base.ARM.replace("[0, 0, 1] }", '[0, 0, 1], start_speed = "300 rpm" }')
+        + """[drags.vane]
 body = "arm"
 point = "0, 100, 0 mm"
 drag_coefficient = 1.2
 area = "200 cm^2"
-[drives.motor]
-joint = "input"
-torque = "0.2 N m"
-"""  # noqa: E501 (an inline table of TOML is one line)
+"""
+        + base.DRIVE
+    )
 
     body: str = name(None, "body that it acts on", example="arm", required=True)
     point: Vector = vector(None, "centre of pressure", unit="mm", example=POINT, required=True)

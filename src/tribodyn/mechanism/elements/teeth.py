@@ -116,7 +116,9 @@ class Teeth(Flanks):
             flanks = [_flank(legs, side, pushes) for side in (1.0, -1.0)]
             yield from (base.Equation(flank, law) for flank in flanks)
         else:
-            flanks = [legs if pushes is None else _pushed(legs, pushes)]
+            # Its force pushes the wheels apart as well.
+            both = zip(legs, pushes or [None] * len(legs), strict=True)
+            flanks = [tuple(replace(wheel, push=push) for wheel, push in both)]
             yield base.Equation(flanks[0], None)
         forward, backward = self.losses()
         for k, flank in enumerate(flanks if forward > 0.0 else ()):
@@ -133,11 +135,6 @@ def pushing(legs: tuple[base.Leg, ...], angle: float) -> Pushes:
     apart = min(towards, key=lambda arm: float(dense.norm(arm)))
     apart = apart / dense.norm(apart) * (1.0 if apart is towards[0] else -1.0)
     return -portable.tan(angle) * apart, portable.tan(angle) * apart
-
-
-def _pushed(legs: tuple[base.Leg, ...], pushes: Pushes) -> tuple[base.Leg, ...]:
-    """Return the legs of a constraint, whose force pushes the wheels apart as well."""
-    return tuple(replace(wheel, push=push) for wheel, push in zip(legs, pushes, strict=True))
 
 
 def _flank(legs: tuple[base.Leg, ...], side: float, pushes: Pushes | None) -> tuple[base.Leg, ...]:

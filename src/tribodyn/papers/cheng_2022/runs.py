@@ -62,7 +62,8 @@ class Runs:
         self, formulation: str, clearance: float, changes: Mapping[str, object] | None = None
     ) -> xr.Dataset:
         """Return two cycles of the mechanism with a clearance [m]."""
-        return self.run("vsv", _vsv_changes(formulation, clearance) | dict(changes or {}))
+        own = {"mechanism.formulation": formulation, "joint.clearance": f"{clearance * 1e6:g} um"}
+        return self.run("vsv", {**own, **(changes or {})})
 
     def joints(
         self, clearance: float, real: Iterable[str] = JOINTS, more: Mapping[str, object] | None = None
@@ -94,10 +95,6 @@ def _frozen(run: xr.Dataset) -> xr.Dataset:
     for variable in run.data_vars.values():
         variable.values.flags.writeable = False
     return run
-
-
-def _vsv_changes(formulation: str, clearance: float) -> dict[str, object]:
-    return {"mechanism.formulation": formulation, "joint.clearance": f"{clearance * 1e6:g} um"}
 
 
 def over_clearances(runs: list[xr.Dataset]) -> xr.Dataset:

@@ -18,6 +18,7 @@ import numpy as np
 
 from tribodyn.papers.cheng_2022.claims.base import Bound, Claim, Verdict, of_span
 from tribodyn.papers.cheng_2022.runs import JOINTS
+from tribodyn.papers.cheng_2022.undamped import ATOL
 
 #: Measure of a claim: a number, two where the paper does not say which is meant, none without a run.
 Number: TypeAlias = float | tuple[float, float] | None
@@ -30,13 +31,6 @@ LEFT_OUT: Final = (None, 0.5, 0.8)
 SCALES: Final = (1.0, 0.5, 2.0)  #: Factors of bounds that are ours.
 VSV, ALL_JOINTS, JOURNALS = "vsv", "vsv-joints", ("journal-dry", "journal-oil")
 _RTOL: Final = {VSV: 1e-3, ALL_JOINTS: 1e-5, "journal-dry": 1e-7, "journal-oil": 1e-6}
-#: Absolute ones of the vane mechanism; those of the others follow.
-_ATOL: Final = {
-    "position": (2e-10, "m"),
-    "tilt": (2e-8, "rad"),
-    "velocity": (2e-6, "m/s"),
-    "tilt_rate": (2e-4, "rad/s"),
-}
 
 
 def _everywhere(**changes: object) -> Level:
@@ -46,17 +40,13 @@ def _everywhere(**changes: object) -> Level:
 
 def _tolerance(factor: float) -> Level:
     """Return all tolerances smaller by a factor than those of the cases."""
-    atol = {f"solver.atol.{name}": f"{value / factor:.6g} {unit}" for name, (value, unit) in _ATOL.items()}
+    atol = {f"solver.atol.{name}": f"{value / factor:.6g} {unit}" for name, (value, unit) in ATOL.items()}
     found = {name: {"solver.rtol": rtol / factor} for name, rtol in _RTOL.items()}
     return {**found, VSV: {**found[VSV], **atol}}
 
 
 def _friction(value: float) -> Level:
     return {VSV: {"joint.friction_coefficient": value}, ALL_JOINTS: {"friction_coefficient": value}}
-
-
-def _guide(length: str) -> Level:
-    return {ALL_JOINTS: {"joints.guide.clearance.length": length}}
 
 
 #: Factors with their levels; the first level is the default.
@@ -68,7 +58,10 @@ FACTORS: Final[dict[str, dict[str, Level]]] = {
         for speed in ("1", "0.1", "5")
     },
     "μ_f": {f"{value}": _friction(value) for value in (0.1, 0.05, 0.2)},
-    "guide": {length: _guide(length) for length in ("10 mm", "5 mm", "40 mm")},
+    "guide": {
+        length: {ALL_JOINTS: {"joints.guide.clearance.length": length}}
+        for length in ("10 mm", "5 mm", "40 mm")
+    },
     "solver": {"mebdf": {}, "mebdf again": {}, "radau": {VSV: {"solver.name": "radau"}}},
 }
 #: Levels of tolerance, v_min, μ_f, guide and solver, by grid: the orthogonal array of 18 rows.

@@ -34,16 +34,13 @@ def compare(one: ValidationSet) -> Outcome:
     rows = []
     for state, found in (("healthy", healthy), ("seized", seized)):
         name, sides = f"pull force of a {state} ring", found.sides_at(0)
-        ends = _ends(found.spread(*found.ends))
+        spread = found.spread(*found.ends)
+        ends = float(spread[0, 0]), float(spread[1, 0])
         rows.append(Comparison(name, "N", found.values[0], None, sides, band=one.bands[state], spread=ends))
     note = f"Depth worn: {float(worn['wear_depth'].max()) * 1e6:.2g} um."
     name = "torque of a bush, worn over new"
     rows.append(Comparison(name, "", ratio, 1.0, null=1.0, band=one.bands["torque"], note=note))
     return Outcome(tuple(rows), _plot(worn))
-
-
-def _ends(spread: FloatArray) -> tuple[float, float]:
-    return float(spread[0, 0]), float(spread[1, 0])
 
 
 def _forces(given: Mapping[str, float], clearance: float | None) -> FloatArray:
