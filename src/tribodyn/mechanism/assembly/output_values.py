@@ -25,7 +25,7 @@ from mebdf.kernels.elementary import portable
 from tribodyn.cases.case import unit
 from tribodyn.kernels import dense
 from tribodyn.kernels.mechanism.data import N_STATES, ORIENTATION, TURNING, VELOCITY
-from tribodyn.mechanism.assembly.pieces import Pieces, pieces_of
+from tribodyn.mechanism.assembly.pieces import RigidPieces, pieces_of
 from tribodyn.mechanism.assembly.skeleton import rotated
 from tribodyn.mechanism.mechanism_case import MechanismCase
 from tribodyn.mechanism.model.output_declarations import OutputKeys
@@ -167,7 +167,7 @@ def outputs_of(case: MechanismCase) -> tuple[Output, ...]:
     return tuple(observing(pieces, name, keys) for name, keys in case.outputs.items())
 
 
-def observing(pieces: Pieces, name: str, keys: OutputKeys) -> Output:
+def observing(pieces: RigidPieces, name: str, keys: OutputKeys) -> Output:
     """Return an output of the bodies of a case."""
     body, reference = pieces.numbers[keys.body], pieces.numbers[keys.reference]
     centres = [*pieces.centres[[body, reference]], pieces.bodies[keys.body].centre]

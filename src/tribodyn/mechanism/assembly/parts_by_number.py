@@ -11,7 +11,7 @@ from itertools import chain
 from tribodyn.joints.clearances import Clearance
 from tribodyn.joints.point_contact import SURFACE
 from tribodyn.mechanism.assembly.clearance_surfaces import clearances_of
-from tribodyn.mechanism.assembly.pieces import Pieces, ends_of, pieces_of
+from tribodyn.mechanism.assembly.pieces import RigidPieces, ends_of, pieces_of
 from tribodyn.mechanism.elements.bristle import resting
 from tribodyn.mechanism.elements.element import ElementKeys, Equation, Leg
 from tribodyn.mechanism.frames import GROUND
@@ -55,7 +55,7 @@ class Model:
     apart: frozenset[str] = frozenset()  #: Names of fixed joints that make no piece of their bodies.
 
     @cached_property
-    def pieces(self) -> Pieces:
+    def pieces(self) -> RigidPieces:
         """The pieces that kernels move as bodies."""
         return pieces_of(self.case, self.apart)
 

@@ -25,7 +25,7 @@ from tribodyn.mechanism.model.parts import JointKeys
 
 
 @dataclass(frozen=True)
-class Pieces:
+class RigidPieces:
     """Pieces by number, in the order of their first bodies, after which they are named."""
 
     bodies: Mapping[str, BodyKeys]  #: All bodies of the case.
@@ -81,7 +81,7 @@ def inertia_of(body: BodyKeys) -> FloatArray:
     return np.asarray(0.5 * (inertia + inertia.T))
 
 
-def motion_of_bodies(pieces: Pieces, found: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+def motion_of_bodies(pieces: RigidPieces, found: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
     """Return the observed motion of all bodies, (n_t, n_bodies, …) each, from that of pieces."""
     moved = {name: values[:, pieces.of_bodies] for name, values in found.items()}
     if not pieces.joints:
@@ -95,7 +95,7 @@ def motion_of_bodies(pieces: Pieces, found: Mapping[str, FloatArray]) -> dict[st
 
 
 def modes_of_bodies(
-    pieces: Pieces, orientation: FloatArray, shape: FloatArray, share: FloatArray
+    pieces: RigidPieces, orientation: FloatArray, shape: FloatArray, share: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return modes, (n_t, m, n_bodies, 6), and shares in their energies of all bodies from those of pieces.
 
@@ -111,7 +111,7 @@ def modes_of_bodies(
     return found, np.array(masses) * np.sum(found[..., :3] ** 2, axis=-1) + turning
 
 
-def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> Pieces:
+def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> RigidPieces:
     """Return the pieces of a case, in which some joints make none."""
     links: dict[str, Counter[str]] = {body: Counter() for body in case.bodies}
     for first, second in ends_of(case):
@@ -137,7 +137,7 @@ def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> Pieces:
         members[first] += members.pop(second)
         piece |= dict.fromkeys(members[first], first)
         joints.add(name)
-    return Pieces(case.bodies, members, frozenset(joints))
+    return RigidPieces(case.bodies, members, frozenset(joints))
 
 
 def _joins(joint: JointKeys) -> bool:

@@ -74,7 +74,7 @@ def _acting(
 
 
 def _needed(model: Model, found: Observed) -> tuple[FloatArray, FloatArray]:
-    """Return what moves the bodies against their weights, shape (n_t, n_bodies, 3) each."""
+    """Return forces and moments that move the bodies against their weights, (n_t, n_bodies, 3) each."""
     bodies, motion = tuple(model.case.bodies.values()), motion_of_bodies(model.pieces, found.bodies)
     inertia, turn = np.array([inertia_of(body) for body in bodies]), motion["orientation"]
     masses, spin = np.array([body.mass for body in bodies]), motion["angular_velocity"]
