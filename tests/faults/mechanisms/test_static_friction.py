@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from benchmarks.mechanisms import static_machines
 from benchmarks.mechanisms.static_machines import SAME, STATIC, loop, one, swinging
 from tribodyn.mechanism.analyses import statics
 from tribodyn.mechanism.analyses.led_loads import LedLoads
@@ -121,6 +122,25 @@ def test_loops_of_random_mechanisms_are_those_of_slow_runs_with_friction_at_rest
         ended, differences = loop(seed)
         assert ended == "complete", seed
         assert np.mean(differences) < SAME, seed
+
+
+def test_friction_balances_a_weight_along_a_freedom_that_nothing_else_holds() -> None:
+    """A coupler slides in two bores: beside its weight what one pushes along them the other one holds."""
+    begins = {"run.duration": "235.6 ms", "run.output_interval": "23.56 ms", "run.positions": 10}
+    result = td.simulate(swinging(26).replace({**STATIC, **begins}))
+    assert result.attrs["failure"] == ""
+    one, other = (result["reaction_force"].sel(joint=f"joint-{k}").values for k in (1, 2))
+    weight = 0.130058 * np.dot((5.2328, -6.25084, 5.45719), (-0.1619959, -0.1540901, 0.9746864))
+    # Axes of the bores lean by some 0.01 rad.
+    assert np.median(other[2:, 2] - one[2:, 2]) == pytest.approx(weight, rel=0.05)
+
+
+@pytest.mark.long(minutes=2.5)
+def test_the_loop_of_a_coupler_that_friction_alone_holds_is_that_of_slow_runs(monkeypatch) -> None:
+    monkeypatch.setattr(static_machines, "SLOW", 300.0)
+    ended, differences = loop(26)
+    assert ended == "complete"
+    assert np.mean(differences) < SAME
 
 
 @pytest.mark.parametrize(

@@ -191,7 +191,7 @@ class LedLoads(JointLoads):
         self.ideal.move_with_drives(self._direction)
 
     def divided(self, free: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the freedoms that forces hold, with their stiffness in ``turning``, and all others."""
+        """Return the freedoms that forces or friction hold, with stiffness ``turning``, and all others."""
         linear = self._centred
         if linear is None or free.size == 0:
             return super().divided(free)
@@ -205,8 +205,9 @@ class LedLoads(JointLoads):
         stiff = np.abs(values) > flat
         by_springs = self._by_springs(moving)
         self._lock(moving, by_springs, rounding)
-        # Contact comes first: without it nothing says how its forces turn with the bodies.
-        stiff &= not self.waits
+        # Contact comes first: without it nothing says how its forces turn with the bodies. Friction of shafts
+        # that walk holds them along all freedoms.
+        stiff = (stiff & (not self.waits)) | (self.pace > 0.0)
         self.turning = vectors[:, stiff].T @ (whole - by_springs) @ vectors[:, stiff]
         return dense.product(free, vectors[:, stiff]), dense.product(free, vectors[:, ~stiff])
 

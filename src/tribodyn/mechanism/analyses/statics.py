@@ -224,14 +224,18 @@ class Equilibria:
                 self.unbalance = max(self.unbalance, self._loads.unbalance())
                 return self._loads.walking()
         why = self._failure(number, f"no static equilibrium was found: {self._why_not()}")
-        # Friction may leave bodies no place along the ideal motion: they walk there from one without any.
-        self._loads.at(t, ideal.ravel(), direction, equations, marks)
-        self._loads.restore(self._loads.kept(), NEVER_ENTERED)
-        if self._ways or self.MUST_REST or settled(self._loads, change=_SETTLED, near=_NEAR) is None:
+        # Friction may leave bodies no place along the ideal motion: they walk, at first from one without any.
+        if self.MUST_REST or (self._ways and self._walks):
             raise why
+        if not self._ways:
+            self._loads.at(t, ideal.ravel(), direction, equations, marks)
+            self._loads.restore(self._loads.kept(), NEVER_ENTERED)
+            if settled(self._loads, change=_SETTLED, near=_NEAR) is None:
+                raise why
+            self._loads.ahead = self._loads.velocity  # the motion that loads begin without friction is over
+            self._ways = [_ways(self._loads.state, ideal)]
         self.counts[_GOES_ON] += not self._walks
-        self._loads.ahead = self._loads.velocity  # the motion that loads begin without friction is over
-        self._ways, self._walks = [_ways(self._loads.state, ideal)], True
+        self._walks = True
         return self(number)
 
     def _in_the_middle(self, number: int) -> FloatArray:

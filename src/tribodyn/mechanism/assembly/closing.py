@@ -295,18 +295,20 @@ class System:
     def approach(self) -> list[ModelError]:
         """Close all joints, drives led from the drawing to where they start; return what fails."""
         pieces = self.data.signals.pieces
-        numbers = {int(self.parts.couplings[k].row_signal[m]) for k, m, _ in self.drive_rows()}
-        driven = [self.data.signals.signals[i] for i in numbers]
+        starts = {
+            int(self.parts.couplings[k].row_signal[m]): float(self.now.couplings[k].prescribed[m, 0])
+            for k, m, _ in self.drive_rows()
+        }
+        driven = [self.data.signals.signals[i] for i in starts]
         firsts = [slice(signal.first, signal.first + signal.n) for signal in driven]
         if not self.rows:
             return []
-        starts = [self._value(i) for i in numbers]
-        n_steps = 1 + int(max((abs(s) for s in starts), default=0.0) / _LONGEST)
+        n_steps = 1 + int(max((abs(s) for s in starts.values()), default=0.0) / _LONGEST)
         drawn = np.array([math.dist(*joint.points) for joint in self.model.case.joints.values()])
         kept = pieces.c.copy()
         for step in range(n_steps + 1):
             pieces.c[:] = kept
-            for part, start in zip(firsts, starts, strict=True):
+            for part, start in zip(firsts, starts.values(), strict=True):
                 pieces.c[part, 0] -= start * (1.0 - step / n_steps)
             self.refresh()
             gap = self.close()
@@ -325,20 +327,12 @@ class System:
         )
         return ModelError(f"joints.{name}", text)
 
-    def _value(self, number: int) -> float:
-        """Return a signal at the start."""
-        for k, m, _ in self.drive_rows():
-            if self.parts.couplings[k].row_signal[m] == number:
-                return float(self.now.couplings[k].prescribed[m, 0])
-        return 0.0
-
     def open_joint(self) -> ModelError:
         """Return the joint with the largest gap, with its gap and its bodies."""
         residuals, rows = self.now.couplings.residual, self.parts.couplings.n_rows
         gaps = [np.max(np.abs(residuals[k, : rows[k]]), initial=0.0) for k in range(len(self.model.joints))]
         size = float(max(gaps, default=-1.0))
-        element = self._open_element(size)
-        if element is not None:
+        if (element := self._open_element(size)) is not None:
             return element
         worst = int(np.argmax(gaps))
         name = self.model.joints[worst]
@@ -388,9 +382,7 @@ class System:
         rng = np.random.default_rng(1)
         for _ in range(2):
             if self.wander(rng):
-                other, others = self._rank()
-                if other > rank:
-                    rank, vanishing = other, others
+                rank, vanishing = max((rank, vanishing), self._rank(), key=lambda found: found[0])
             self.restore(kept)
         return rank, vanishing
 

@@ -37,7 +37,8 @@ def initial_state(assembly: Assembly) -> FloatArray | None:
 
 
 _MOST_LOOKS: Final = 20
-#: Looks after which the stiffness is found by looking: where a force vanishes, little else has any.
+_NEARS: Final = 0.7  #: Changes in one look over those in the one before that lead to an end by themselves.
+#: Looks after which stiffness is found by looking, unless changes fall so: a vanishing force gives little.
 _PLAIN_LOOKS: Final = 8
 #: Searches in a row without an end before freedoms take part and stiffness is looked for; half of the most.
 _PATIENT: Final = 3
@@ -67,9 +68,10 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
     A change of gaps below ``change`` over the roughness counts as zero; after one below ``near``, which grows
     from look to look, the possible motions are not looked for again.
     """
-    soft, quiet, unended, floor = 0.0, False, 0, _LOW_FLOOR if near and loads.bends else _FLOOR
+    soft, quiet, unended, last, nearer = 0.0, False, 0, math.inf, False
+    floor = _LOW_FLOOR if near and (loads.bends or loads.blurs) else _FLOOR
     for look in range(_MOST_LOOKS):
-        if near and (look >= _PLAIN_LOOKS or unended >= _PATIENT):
+        if near and (unended >= _PATIENT or (look >= _PLAIN_LOOKS and not nearer)):
             loads.survey()
         else:
             loads.look()
@@ -77,6 +79,7 @@ def settled(loads: JointLoads, *, change: float = _SETTLED, near: float = 0.0) -
             return loads.state
         steps, moved, soft = _eased(loads, soft, floor, change) if loads.motions.size else (0, 0.0, soft)
         unended = unended + 1 if math.isinf(moved) else 0
+        last, nearer = moved, moved < _NEARS * last
         if unended and (near or loads.bends):
             floor = _LOW_FLOOR
         if loads.waits and unended in (0, _PATIENT):
@@ -101,10 +104,10 @@ def _eased(loads: JointLoads, soft: float, floor: float, least: float) -> tuple[
         return found
     for factor in loads.blurs:
         loads.restore(kept, factor)
-        sharper = _newton(loads, found[2], floor, least)
+        sharper = _newton(loads, soft, floor, least)
         kept = loads.kept()
         if not math.isinf(sharper[1]):
-            found, ended, blunt = sharper, kept, factor
+            found, ended, blunt, soft = sharper, kept, factor, sharper[2]
     if blunt:  # as it was when they ended last
         loads.restore(ended, blunt)
     return found
