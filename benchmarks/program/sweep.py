@@ -32,7 +32,8 @@ from tribodyn.results.store import FEW_POINTS
 from tribodyn.studies import sweep
 from tribodyn.studies.work import compute
 
-POINTS, MANY = 16, 96
+#: Points of a sweep, and of one in blocks, in whose time the start of workers counts little.
+POINTS, MANY = 16, 400
 TARGET = 1.8
 ROUNDS = 2
 #: Drive cycles of a point. The more, the less the start of the workers counts.
@@ -46,7 +47,7 @@ KINDS = (FIRST, LATER, PLAIN, COMMAND, FIRST_FIFTY)
 def case_and_clearances(duration: str, points: int) -> tuple[Case, list[str]]:
     """Return what is swept, and where."""
     case = load_case("vsv").replace({"run.duration": duration})
-    return case, [f"{20.0 + 1.5 * i} um" for i in range(points)]
+    return case, [f"{20.0 + 24.0 * i / points:.6g} um" for i in range(points)]
 
 
 def timed(workers: int, duration: str, points: int = POINTS) -> float:

@@ -399,9 +399,8 @@ class MechanismSystem:
         return {"start": "equilibrium" if self.start() is not None else "centred"}
 
     def _observed(self, run: FinishedRun) -> Observed:
-        couplings = run.problem.data.parts.couplings
-        found = with_reactions(self.model, couplings, self._layout.observed(run.solution.rows))
-        return with_motors(self.model, found)
+        rows = self._layout.observed(run.solution.rows)
+        return with_motors(self.model, with_reactions(self.model, run.problem.data.parts.couplings, rows))
 
     @cached_property
     def _layout(self) -> Layout:

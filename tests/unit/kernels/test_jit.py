@@ -90,6 +90,7 @@ def test_what_is_compiled_imports_nothing_that_the_name_does_not_cover(sources: 
     imported = {
         module
         for path in covered
+        if path.suffix == ".py"
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.ImportFrom) and node.module
         for module in (node.module, *(f"{node.module}.{name.name}" for name in node.names))

@@ -120,7 +120,7 @@ def assemble(model: Model, worn: FloatArray | None = None) -> Assembly:
     redundancy = None
     if dependent.size:
         taking_part = _taking_part(system, dependent)
-        names = dict.fromkeys(model.constraint(k)[0].removeprefix("joint ") for k, _ in taking_part)
+        names = (name.removeprefix("joint ") for name in model.owners({k for k, _ in taking_part}))
         redundancy = Redundancy(len(system.rows) - rank, tuple(names))
         findings += _loads_not_unique(model, redundancy)
     contradictions = _contradictions(system, dependent)
@@ -221,8 +221,7 @@ def _locking(system: System, dependent: FloatArray, drives: Mapping[tuple[int, i
     """Return the joints and elements that hold the coordinate of a drive."""
     of_drive = [row in drives for row in system.rows]
     combined = dense.product(dependent[:, of_drive].T, dependent)
-    held = _taking_part(system, combined)
-    return list(dict.fromkeys(system.model.constraint(k)[0] for k, m in held if (k, m) not in drives))
+    return system.model.owners({k for k, m in _taking_part(system, combined) if (k, m) not in drives})
 
 
 def _odd_axes(system: System, locking: list[str]) -> str:

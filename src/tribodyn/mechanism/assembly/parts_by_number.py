@@ -142,6 +142,12 @@ class Model:
         bodies = dict.fromkeys(name for leg in element.legs for name in leg.bodies)
         return f"{element.keys.METHOD} {element.name}", tuple(bodies)
 
+    def owners(self, couplings: set[int]) -> list[str]:
+        """Return the owners of constraints, with fixed joints between them, in the order of couplings."""
+        passing = self.pieces.passing({body for k in couplings for body in self.constraint(k)[1]})
+        every = sorted(couplings | set(map(self.joints.index, passing)))
+        return list(dict.fromkeys(self.constraint(k)[0] for k in every))
+
     @property
     def as_drawn(self) -> "Model":
         """The mechanism in which every joint is the ideal one of its type."""

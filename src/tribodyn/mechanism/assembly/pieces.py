@@ -30,7 +30,7 @@ class RigidPieces:
 
     bodies: Mapping[str, BodyKeys]  #: All bodies of the case.
     members: Mapping[str, Sequence[str]]  #: Bodies of each piece, by its name.
-    joints: frozenset[str]  #: Names of the joints within pieces.
+    joints: Mapping[str, Sequence[str]]  #: Bodies of the joints within pieces, by the names of these.
 
     @cached_property
     def numbers(self) -> Mapping[str, int]:
@@ -63,6 +63,22 @@ class RigidPieces:
     def arms(self) -> FloatArray:
         """Mass centres of all bodies against those of their pieces, as drawn [m], shape (n_bodies, 3)."""
         return np.array([body.centre for body in self.bodies.values()]) - self.centres[self.of_bodies]
+
+    def beyond(self, joint: str) -> set[str]:
+        """Return the bodies of a piece on the side of the second body of a joint within it."""
+        others = [between for name, between in self.joints.items() if name != joint]
+        beyond, more = set[str](), {self.joints[joint][1]}
+        while more:
+            beyond |= more
+            more = {body for between in others if beyond & {*between} for body in between} - beyond
+        return beyond
+
+    def passing(self, bodies: set[str]) -> Iterator[str]:
+        """Yield the joints within pieces that stand between some bodies of the same piece."""
+        for joint, (body, _) in self.joints.items():
+            own = bodies & {*tuple(self.members.values())[self.numbers[body]]}
+            if 0 < len(own & self.beyond(joint)) < len(own):
+                yield joint
 
     def inertia(self, number: int) -> FloatArray:
         """Return the inertia about the mass centre, along the axes of the drawing [kg m²], shape (3, 3)."""
@@ -119,7 +135,7 @@ def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> RigidPieces:
             links[first][second] += 1
             links[second][first] += 1
     piece, members = {body: body for body in case.bodies}, {body: [body] for body in case.bodies}
-    order, joints = {body: k for k, body in enumerate(case.bodies)}, set()
+    order, joints = {body: k for k, body in enumerate(case.bodies)}, dict[str, Sequence[str]]()
     turned = {drive.joint for drive in case.drives.values() if case.joints[drive.joint].real is not None}
     single = {body for name in turned for body in case.joints[name].between}
     for name, joint in case.joints.items():
@@ -136,13 +152,13 @@ def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> RigidPieces:
                 links[other][first] += number
         members[first] += members.pop(second)
         piece |= dict.fromkeys(members[first], first)
-        joints.add(name)
-    return RigidPieces(case.bodies, members, frozenset(joints))
+        joints[name] = joint.between
+    return RigidPieces(case.bodies, members, joints)
 
 
 def _joins(joint: JointKeys) -> bool:
     """Return whether a joint makes one piece of its bodies."""
-    closed = joint.points[0] == joint.points[1] and not any(joint.tilt)
+    closed = len({*joint.points}) == 1 and not any(joint.tilt)
     return joint.type == Fixed.NAME and GROUND not in joint.between and closed
 
 

@@ -34,8 +34,9 @@ def with_reactions(model: Model, couplings: Any, found: Observed) -> Observed:
     of_pieces = np.append(pieces.of_bodies, -1)[ends]
     turn, origin, acting = _acting(couplings, of_pieces, found)
     needed, kept = _needed(model, found), {name: values.copy() for name, values in found.couplings.items()}
-    for k in (model.joints.index(name) for name in pieces.joints):
-        beyond = np.isin(np.arange(len(names)), [names[body] for body in _beyond(model, k)])
+    for joint in pieces.joints:
+        k = model.joints.index(joint)
+        beyond = np.isin(np.arange(len(names)), [names[body] for body in pieces.beyond(joint)])
         side = beyond[ends[:, 1]].astype(float) - beyond[ends[:, 0]]
         side[k] = 0.0
         force, moment = (
@@ -55,22 +56,16 @@ def _acting(
     couplings: Any, of_pieces: NDArray[np.intp], found: Observed
 ) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
     """Return the attitude of sockets, origins of shafts [m], and wrenches on these, (n_t, n_couplings, …)."""
-    still = {"orientation": [1.0, 0.0, 0.0, 0.0], "position": [0.0, 0.0, 0.0]}
-    turn, place = (
-        np.concatenate(
-            [moved := found.bodies[name], np.broadcast_to(rest, (len(moved), 1, len(rest)))], axis=1
-        )
-        for name, rest in still.items()
-    )
-    socket, shaft = of_pieces.T
+    n, (socket, shaft) = found.bodies["position"].shape[1], of_pieces.T
+    turn = np.insert(found.bodies["orientation"], n, [1.0, 0.0, 0.0, 0.0], axis=1)  # the ground
+    place = np.insert(found.bodies["position"], n, 0.0, axis=1)
     origin = place[:, shaft] + rotated(turn[:, shaft], couplings.shaft_point)
     parts = []
     for name in ("force", "moment"):
         whole = found.couplings[f"reaction_{name}"].copy()
         whole[..., 2] += found.couplings[f"drive_{name}"]
         parts.append(rotated(turn[:, socket], np.sum(whole[..., None] * couplings.to_socket, axis=-2)))
-    force, moment = parts
-    return turn[:, socket], origin, (force, moment + np.cross(origin, force))
+    return turn[:, socket], origin, (parts[0], parts[1] + np.cross(origin, parts[0]))
 
 
 def _needed(model: Model, found: Observed) -> tuple[FloatArray, FloatArray]:
@@ -85,13 +80,3 @@ def _needed(model: Model, found: Observed) -> tuple[FloatArray, FloatArray]:
 
     moment = turned(motion["angular_acceleration"]) + np.cross(spin, turned(spin))
     return force, moment + np.cross(motion["position"], force)
-
-
-def _beyond(model: Model, k: int) -> set[str]:
-    """Return the bodies of the piece on the side of the shaft of a fixed joint."""
-    joints = [model.case.joints[name].between for name in model.pieces.joints if name != model.joints[k]]
-    beyond, more = set[str](), {model.ends[k][1]}
-    while more:
-        beyond |= more
-        more = {body for ends in joints if beyond & {*ends} for body in ends} - beyond
-    return beyond

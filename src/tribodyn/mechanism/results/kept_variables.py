@@ -176,8 +176,7 @@ class Layout:
     @property
     def size(self) -> int:
         """Numbers of a row that are kept."""
-        parts = ((self.n_bodies, self.bodies), (self.n_joints, self.joints), (self.n_others, self.others))
-        return N_WHOLE + sum(n * sum(quantity.size for quantity in table) for n, table in parts)
+        return N_WHOLE + sum(n * sum(quantity.size for quantity in table) for n, table in self._parts)
 
     @cached_property
     def places(self) -> NDArray[np.intp] | None:
