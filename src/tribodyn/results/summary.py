@@ -181,7 +181,7 @@ def summarise(dataset: xr.Dataset, key_results: Mapping[str, KeyResult]) -> Summ
                 summary[name] = int(value) if key_result.count else value
     there = {name: key_results[name] for name in summary if name in key_results}
     least, largest = (json_attribute(dataset, name, {}) for name in WEAR_SCATTER)
-    scatter = {joint: (low, largest[joint]) for joint, low in least.items()}
+    scatter = {joint: (low, largest[joint]) for joint, low in least.items() if joint in largest}
     summary["assumed"] = _assumed(dataset, there)
     summary["intervals"] = {
         name: [end * float(number) for end in ends]

@@ -1,3 +1,4 @@
+import json
 import math
 
 import numpy as np
@@ -7,6 +8,7 @@ from tribodyn.mechanisms.catalogue import MECHANISMS
 from tribodyn.mechanisms.results import summarise
 from tribodyn.papers.cheng_2022.reduced.key_results import KEY_RESULTS
 from tribodyn.results import build
+from tribodyn.results.dataset import WEAR_SCATTER
 
 PERIOD = 2.0 * np.pi
 IMPACT_TIME = 0.1 * np.pi
@@ -51,6 +53,12 @@ def test_what_is_missing_is_left_out_and_nothing_is_nan(make_result):
         assert all(math.isfinite(value) for value in numbers)
         assert "energy_residual_percent" not in summary
         assert summary["failure"] == "stopped"
+
+
+@pytest.mark.parametrize("which", WEAR_SCATTER)
+def test_a_scatter_of_wear_with_one_end_is_none(make_result, which):
+    half = {name: json.dumps({} if name == which else {"": 1.5}) for name in WEAR_SCATTER}
+    assert summarise(make_result().assign_attrs(half))["intervals"] == {}
 
 
 def test_a_peak_between_output_times_is_not_lost(make_result):
