@@ -265,23 +265,25 @@ class MechanismSystem:
         times = run.solution.picture_times[film]
         pressure = np.asarray(run.solution.pictures[film, : self.maps.n_nodes], dtype=np.float64)
         growth = np.full((times.size, len(self.outputs)), np.nan)
-        path, moved = DrivePath(run.solution.t, self.case.turn), partial(self._moved, self._observed(run))
+        observed = self._observed(run)
+        path, moved = DrivePath(run.solution.t, self.case.turn), partial(self._moved, observed)
         for _, found, numbers in led_along(self.assembly, self.outputs, path, moved):
             outputs = [self.outputs[number] for number in numbers]
             growth[:, numbers] = error_growth(found, outputs, self.maps.places, times, pressure, depth)
-        columns, _ = self._of_outputs(self._observed(run), run)
+        columns, _ = self._of_outputs(observed, run)
         error = np.stack([np.interp(times, run.solution.t, one) for one in columns["output_error"].T], axis=1)
         return dict(zip(self.case.outputs, lives(error, growth, limits).tolist(), strict=True))
 
     def of_cycle(self, run: FinishedRun) -> dict[str, float]:
         """Return the numbers of one cycle that a campaign keeps."""
-        force = np.linalg.norm(self._observed(run).couplings["reaction_force"], axis=-1)
+        found = self._observed(run)
+        force = np.linalg.norm(found.couplings["reaction_force"], axis=-1)
         means = [float(np.trapezoid(f, run.solution.t)) / self.period for f in force.T[self.model.real]]
         return {
             "wear_pressure_max": float(np.max(run.problem.memory.contact.peaks["pressure_peak"])),
             "wear_roughness": float(np.max(run.problem.data.contact.surfaces["roughness"])),
             "wear_force_mean": max(means),
-            "wear_error_share": error_share(self._of_outputs(self._observed(run), run)[0], self.case.outputs),
+            "wear_error_share": error_share(self._of_outputs(found, run)[0], self.case.outputs),
         }
 
     def gather(self, run: FinishedRun) -> ResultPart:

@@ -382,7 +382,9 @@ class System:
         rng = np.random.default_rng(1)
         for _ in range(2):
             if self.wander(rng):
-                rank, vanishing = max((rank, vanishing), self._rank(), key=lambda found: found[0])
+                other, others = self._rank()
+                if other > rank:
+                    rank, vanishing = other, others
             self.restore(kept)
         return rank, vanishing
 

@@ -162,7 +162,7 @@ class Model:
     def in_place(self) -> "Model":
         """The mechanism whose joints are where their points are."""
         case = self.case.without_deviations()
-        off = {name for name, joint in self.case.joints.items() if joint != case.joints[name]}
+        off = {name for name, joint in self.case.joints.items() if joint.off_drawing}
         return self if case is self.case else replace(self, case=case, apart=self.apart | off)
 
     @property
@@ -215,10 +215,8 @@ class Model:
 
     def loose(self) -> Iterator[ModelError]:
         """Yield the bodies that no joint, spring or element names."""
-        between = [joint.between for joint in self.case.joints.values()]
-        between += [spring.between for spring in self.case.springs.values()]
-        between += [leg.bodies for element in self.elements for leg in element.legs]
-        held = set(chain.from_iterable(between))
+        first_load = self.first_leg - len(self.case.loads)
+        held = {*chain(*self.ends[:first_load], *self.ends[self.first_leg :])}
         for body in self.case.bodies:
             if body not in held:
                 text = f"nothing holds body {body}: no joint, spring or element names it"

@@ -158,7 +158,7 @@ def pieces_of(case: MechanismCase, apart: Iterable[str] = ()) -> RigidPieces:
 
 def _joins(joint: JointKeys) -> bool:
     """Return whether a joint makes one piece of its bodies."""
-    closed = len({*joint.points}) == 1 and not any(joint.tilt)
+    closed = len({*joint.points}) == 1 and not joint.off_drawing
     return joint.type == Fixed.NAME and GROUND not in joint.between and closed
 
 

@@ -180,9 +180,8 @@ def _couplings(model: Model, signals: SignalList, terms: list[Term]) -> Any:
 
 def _place(record: Any, model: Model, points: ArrayLike, axes: Sequence[FloatArray]) -> None:
     """Fill origins and axes of socket and shaft; ``points`` and ``axes`` as drawn."""
-    record.socket_point[:], record.shaft_point[:] = (
-        np.array(points) - model.pieces.centres[[record.socket, record.shaft]]
-    )
+    origins = np.array(points) - model.pieces.centres[[record.socket, record.shaft]]
+    record.socket_point[:], record.shaft_point[:] = origins
     record.to_socket[:], record.shaft_axes[:] = axes[0].T, axes[1]
 
 
@@ -196,11 +195,10 @@ def _fill_joint(record: Any, model: Model, name: str, joint: JointKeys) -> None:
     _place(record, model, joint.points[::turned], axes)
     if name in model.pieces.joints:  # at rest on the ground, for nothing moves in it
         record.socket = record.shaft = len(model.bodies)
-    if name in model.clearances or name in model.pieces.joints:
-        return
-    for row in kind.ROWS:
-        _add_row(record, *row)
-    kind.fill(record, joint)
+    elif name not in model.clearances:
+        for row in kind.ROWS:
+            _add_row(record, *row)
+        kind.fill(record, joint)
 
 
 def _add_row(record: Any, kind: int, axis: int, other: int, signal: int = NONE) -> None:
