@@ -19,6 +19,7 @@ from tribodyn.kernels.lanes import ROW, WIDTH
 
 _NUMBER: Final = ir.DoubleType()
 _VECTOR: Final = ir.VectorType(_NUMBER, WIDTH)
+_PAIR: Final = ir.VectorType(_NUMBER, 2)
 _WHOLE: Final = ir.VectorType(ir.IntType(32), WIDTH)
 _INDEX: Final = ir.IntType(64)
 
@@ -65,10 +66,10 @@ for _symbol, _instruction in (
     _define(_symbol, _instruction)
 
 
-def _address(context: Any, builder: Any, kind: Any, array: Any, place: Any) -> Any:
-    """Return the address of four numbers of an array."""
+def _address(context: Any, builder: Any, kind: Any, array: Any, place: Any, read: Any = _VECTOR) -> Any:
+    """Return the address of four numbers of an array, or of others that are ``read``."""
     data = context.make_array(kind)(context, builder, array).data
-    return builder.bitcast(builder.gep(data, [place]), _VECTOR.as_pointer())
+    return builder.bitcast(builder.gep(data, [place]), read.as_pointer())
 
 
 def _read(builder: Any, address: Any) -> Any:
@@ -112,20 +113,15 @@ def _spread(typing: Any, number: Any) -> Any:
     return _lanes(types.float64), generate
 
 
-def _called(name: str, builder: Any, arguments: Any) -> Any:
-    """Return the result of an instruction of the compiler for each lane alone."""
-    kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(arguments))
-    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
-    return builder.call(function, arguments)
-
-
 def _of_one(name: str) -> Any:
-    """Return a function of lanes that is an instruction of the compiler."""
+    """Return a function of each lane alone that is an instruction of the compiler."""
 
     @intrinsic
     def _function(typing: Any, lanes: Any) -> Any:
         def generate(context: Any, builder: Any, called: Any, arguments: Any) -> Any:
-            return _called(name, builder, arguments)
+            kind = ir.FunctionType(_VECTOR, [_VECTOR])
+            function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
+            return builder.call(function, arguments)
 
         return _lanes(_lanes), generate
 
@@ -219,13 +215,15 @@ def _transposed(builder: Any, parts: list[Any]) -> list[Any]:
 
 
 def _rows_from(context: Any, builder: Any, called: Any, array: Any, places: list[Any]) -> Any:
-    """Return the columns of four rows of a table."""
+    """Return the columns of four rows of a table, by pairs: registers are filled while they are read."""
     starts = [builder.mul(place, _INDEX(ROW)) for place in places]
     columns: list[Any] = []
-    for half in (0, WIDTH):
-        parts = [builder.add(start, _INDEX(half)) for start in starts]
-        addresses = [_address(context, builder, called.args[0], array, part) for part in parts]
-        columns += _transposed(builder, [_read(builder, address) for address in addresses])
+    for first in range(0, ROW, 2):
+        parts = [builder.add(start, _INDEX(first)) for start in starts]
+        addresses = [_address(context, builder, called.args[0], array, part, _PAIR) for part in parts]
+        pairs = [_read(builder, address) for address in addresses]
+        halves = [_shuffled(builder, (0, 1, 2, 3), *two) for two in (pairs[::2], pairs[1::2])]
+        columns += [_shuffled(builder, order, *halves) for order in ((0, 4, 2, 6), (1, 5, 3, 7))]
     return context.make_tuple(builder, called.return_type, columns)
 
 

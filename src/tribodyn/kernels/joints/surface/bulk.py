@@ -185,22 +185,26 @@ def fill_block(
     """
     fill_motion(data, surface, memory, station, r)
     end = fill_groups(data, surface, memory, r, purpose)
-    if surface.levels > 0.0:
-        fill_bulk(data, surface, memory, station, r, 0.0 if purpose == WRENCH else 1.0)
-        _fill_pressures(data, surface, memory, r, purpose)
-    else:
+    if surface.levels == 0.0:
         fill_pressures(data, surface, memory, end, purpose)
+        return
+    fill_bulk(data, surface, memory, station, r, 0.0 if purpose == WRENCH else 1.0)
+    # A loop for each purpose: one for all runs out of registers.
+    if purpose == WRENCH:
+        _fill_pressures(data, surface, memory, r, WRENCH)
+    elif purpose == REPORT:
+        _fill_pressures(data, surface, memory, r, REPORT)
+    else:
+        _fill_pressures(data, surface, memory, r, DERIVATIVES)
 
 
 @inlined
 def _at(x: Any, k: tuple[Any, Any, Any, Any, Any, Any, Any, Any]) -> tuple[Any, Any, Any]:
     """Return P, dP/dx and C of a row of a table."""
-    p = k[0] + x * (k[1] + x * (k[2] + x * k[3]))
-    return (
-        p,
-        k[1] + x * (spread(2.0) * k[2] + x * (spread(3.0) * k[3])),
-        k[4] + x * (k[5] + x * (k[6] + x * k[7])),
-    )
+    third = x * k[3]
+    second = k[2] + third
+    first = k[1] + x * second
+    return k[0] + x * first, first + x * (second + third), k[4] + x * (k[5] + x * (k[6] + x * k[7]))
 
 
 @inlined
@@ -244,18 +248,15 @@ def _slopes(t: float, low: float, high: float) -> tuple[Any, Any, Any, Any]:
     )
 
 
-@kernel
+@inlined
 def _fill_pressures(
     data: SurfaceData, surface: Record, memory: SurfaceMemory, r: int, purpose: float
 ) -> None:
     """Do the work of ``ring.fill_pressures`` between two levels."""
     block, at, pitch, step = memory.block, BLOCK_GROUPS, surface.pitch, surface.inverse_step
-    slope, least, most = (
-        spread(step / surface.roughness),
-        spread(least_pressure(surface)),
-        spread(surface.hardness),
-    )
-    zero, width, half, over = zeros(), spread(1.0 / step), spread(-0.5 / step), spread(OVERRATED)
+    slope, least = spread(step / surface.roughness), spread(least_pressure(surface))
+    zero, most, width = zeros(), spread(surface.hardness), spread(1.0 / step)
+    half, over = spread(-0.5 / step), spread(OVERRATED)
     for k in range(rings_from(surface, r)):
         level, t, begin = block[LEVEL + k], block[SHARE + k], at
         at += STRIDE * groups_of(block, k)[1]
@@ -271,8 +272,7 @@ def _fill_pressures(
             low_row, high_row = rows_at(cubics, block, g + NUMBER), rows_at(above_it, block, g + NUMBER)
             a, a_1, c_a = _at(x, low_row)
             b, b_1, c_b = _at(x, high_row)
-            sinks_a, sinks_b = a * a_1, b * b_1
-            rigid = _blend(weights, a, sinks_a, b, sinks_b)
+            rigid = a * (weights[0] + weights[1] * a_1) + b * (weights[2] + weights[3] * b_1)
             damping = weights[0] * c_a + weights[2] * c_b
             whole = rigid + damping * ratio
             bounded = above(least, whole, least, above(whole, most, most, whole))  # this way round for NaN
@@ -283,7 +283,7 @@ def _fill_pressures(
                 free = above(least, whole, zero, above(whole, most, zero, spread(1.0)))
                 stiffness = _blend(weights, a_1, a_1 * a_1 + a * a_2, b_1, b_1 * b_1 + b * b_2)
                 stiffness = stiffness + ratio * (weights[0] * ca_1 + weights[2] * cb_1)
-                widening = _blend(slopes, a, sinks_a, b, sinks_b)
+                widening = _blend(slopes, a, a * a_1, b, b * b_1)
                 widening = widening + ratio * (slopes[0] * c_a + slopes[2] * c_b)
                 store(block, g + STIFFNESS, free * slope * stiffness)
                 store(block, g + RESISTANCE, free * damping * load(block, g + FOLLOWING))
