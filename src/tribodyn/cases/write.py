@@ -49,7 +49,9 @@ def to_toml(
     for table, inside in (tables if comments else _shortened(tables)).items():
         if not inside and _is_always_there(case, table):
             continue
-        lines += ["", f"[{_quoted(table)}]", *inside] if table else inside
+        # Names with numbers stand in quotes.
+        path = ".".join(f'"{name}"' if {"[", ":"} & {*name} else name for name in table.split("."))
+        lines += ["", f"[{path}]", *inside] if table else inside
     if comments:
         declared = keys_of(type(case))
         lines += _not_there(declared, {as_declared(table, declared) for table in tables})
@@ -81,11 +83,6 @@ def _shortened(tables: Mapping[str, list[str]]) -> dict[str, list[str]]:
         else:
             short[table] = lines
     return short
-
-
-def _quoted(table: str) -> str:
-    """Return the path of a table as a file has it: names with numbers in quotes."""
-    return ".".join(f'"{name}"' if {"[", ":"} & {*name} else name for name in table.split("."))
 
 
 def _is_always_there(case: BaseModel, table: str) -> bool:

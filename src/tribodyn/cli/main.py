@@ -109,12 +109,13 @@ class _Parser(argparse.ArgumentParser):
     def _refuse(self, unknown: Sequence[str], below: argparse.ArgumentParser) -> NoReturn:
         """Complain about arguments that a command does not have."""
         options = re.findall(r"--[a-z][a-z-]*", below.format_help())
-        near = closest(unknown[0].partition("=")[0], options, cutoff=_NEAR)
-        hint = f"; did you mean {near}?" if near else ""
-        if not near and "--set" in options:
-            hint = "; values of the case are changed by --set PATH=VALUE"
-        if not unknown[0].startswith("-"):
-            hint = "; the command takes one case, and PATH=VALUE follows --set" if "--set" in options else ""
+        first = unknown[0].partition("=")[0]
+        near = closest(first, options, cutoff=_NEAR)
+        hint = "; values of the case are changed by --set PATH=VALUE" if "--set" in options else ""
+        if near:
+            hint = f"; {near} follows the command" if near == first else f"; did you mean {near}?"
+        elif hint and not first.startswith("-"):
+            hint = "; the command takes one case, and PATH=VALUE follows --set"
         below.error(f"unrecognized arguments: {brief(' '.join(unknown))}{hint}")
 
 

@@ -64,6 +64,13 @@ def test_no_other_verb_is_guessed(capsys: pytest.CaptureFixture[str]) -> None:
     assert "did you mean `tribodyn run`" in capsys.readouterr().err
 
 
+def test_an_option_before_its_command_is_told_where_it_belongs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--debug", "compare", "a", "b"]) == BAD_INPUT
+    said = capsys.readouterr().err
+    assert "--debug follows the command" in said
+    assert "did you mean" not in said
+
+
 SOUND = 'case = "vsv"\ntitle = """a = 5 mm"""\n[joint]\nclearance = "20 um"\nradius = "6 mm"\n'
 
 

@@ -29,7 +29,7 @@ class RestKeys(Group):
     rest: bool = switch(
         False, "whether friction holds at rest; without it surfaces creep below the slip velocity", "assumed"
     )
-    presliding: float = quantity("1 um", "displacement at which it breaks away", "assumed", gt=0)
+    presliding: float = quantity("1 um", "displacement at which it breaks away", "assumed", gt=0, le="10 mm")
     settling: float = quantity("1 ms", "time constant of the damping of what sticks", "assumed", ge=0)
 
 

@@ -14,7 +14,7 @@ from tribodyn.core.quantities import Record
 from tribodyn.joints.clearances import Clearance, Place, SurfaceLaw, assemble, places, pose_at
 from tribodyn.joints.point_contact import SURFACE, Touch
 from tribodyn.joints.shapes import Ball, Cylinder, Sphere
-from tribodyn.kernels.joints.surface.data import GAP, PLASTIC, SurfaceData
+from tribodyn.kernels.joints.surface.data import GAP, NORMAL, PLASTIC, POSITION, SurfaceData
 from tribodyn.kernels.joints.surface.joint import report
 from tribodyn.kernels.joints.surface.memory import SurfaceMemory, new_memory
 from tribodyn.kernels.joints.surface.tilt import LINE, WHOLE
@@ -33,7 +33,7 @@ from tribodyn.wear import between_edges, resampled
 _NOTED: Final = 4  #: Surfaces of which the same is noted.
 _SAMPLES: Final = 24
 _FINER: Final = 4
-_FORCE: Final = ("F_cx", "F_cy", "F_cz")
+_WRENCH: Final = ("F_cx", "F_cy", "F_cz", "M_cx", "M_cy", "M_cz")
 _ALL: Final = slice(None)
 #: Values that decide about the grid of a joint and the forces on it at rest, beside its wear.
 _DECIDING: Final = (*(field.name for field in fields(SurfaceLaw)), "shape", "grid")
@@ -124,9 +124,9 @@ class Contacts:
     ) -> tuple[FloatArray, FloatArray]:
         """Return the error of the contact force, and the pressure of surfaces at rest, of each surface.
 
-        The error is the largest at some attitudes of the run, over the largest force in the joint. The
-        pressure is that of the attitude in which the pressure of the run was largest; 0 where it is not
-        known. Both are NaN from where the caller wanted to stop.
+        The error is the largest at some attitudes of the run, over the largest sum of the forces on the
+        surfaces of the joint: those on opposite walls cancel each other. The pressure is that of the attitude
+        in which that of the run was largest, 0 if not known. Both are NaN from where the caller stopped it.
         """
         n_rows, n_surfaces = rows["tilt_x"].shape[0], len(self.places)
         error, at_rest = np.full(n_surfaces, np.nan), np.zeros(n_surfaces)
@@ -145,7 +145,7 @@ class Contacts:
             try:
                 fine = chosen.grid(j, clearance)
                 pairs = [
-                    (_force(data, memory, j, pose, own), _force(*fine, 0, pose, _ALL))
+                    (_carried(data, memory, j, pose, own), _carried(*fine, 0, pose, _ALL))
                     for pose in poses
                     if not skip()
                 ]
@@ -155,9 +155,10 @@ class Contacts:
             if len(pairs) < len(poses):
                 at_rest[own] = np.nan
                 continue
-            forces = np.array(pairs)
-            largest = float(np.max(np.linalg.norm(forces[:, 1].sum(axis=1), axis=-1)))
-            off = np.max(np.linalg.norm(forces[:, 0] - forces[:, 1], axis=-1), axis=0)
+            found, exact = np.moveaxis(np.array(pairs), 1, 0)
+            arm = float(np.max(np.linalg.norm(fine[0].nodes[POSITION:NORMAL], axis=0)))
+            largest = float(np.max(_size(exact, arm).sum(axis=1)))
+            off = np.max(np.linalg.norm((found - exact)[..., :3], axis=-1), axis=0)
             error[own] = off / largest if largest > 0.0 else 0.0
             hardest = int(np.argmax(rows["pressure_max"][:, number]))
             pose = _pose(rows, number, hardest, openings[hardest, j], tilt)
@@ -251,7 +252,13 @@ def _reported(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record) ->
     return memory.reports
 
 
-def _force(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, own: slice) -> FloatArray:
-    """Return the contact force on the surfaces of a joint [N], shape (n, 3)."""
+def _carried(data: SurfaceData, memory: SurfaceMemory, j: int, pose: Record, own: slice) -> FloatArray:
+    """Return contact force [N] and moment [N m] on the surfaces of a joint, shape (n, 6)."""
     reports = _reported(data, memory, j, pose)
-    return np.stack([reports[name][own] for name in _FORCE], axis=-1)
+    return np.stack([reports[name][own] for name in _WRENCH], axis=-1)
+
+
+def _size(wrench: FloatArray, arm: float) -> FloatArray:
+    """Return the larger of force and moment over ``arm`` [N]: the forces of a couple cancel each other."""
+    force, moment = np.split(wrench, 2, axis=-1)
+    return np.asarray(np.maximum(np.linalg.norm(force, axis=-1), np.linalg.norm(moment, axis=-1) / arm))
