@@ -172,11 +172,14 @@ class MechanismCase(_WithElements):
         return self.model_copy(update={"joints": {name: coarse(one) for name, one in self.joints.items()}})
 
     @property
+    def real(self) -> dict[str, ClearanceKeys]:
+        """Clearances of the joints that are not ideal, by name."""
+        return {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
+
+    @property
     def oiled(self) -> list[str]:
         """Names of the joints with an oil film."""
-        return [
-            name for name, joint in self.joints.items() if joint.real is not None and joint.film is not None
-        ]
+        return [name for name in self.real if self.joints[name].film is not None]
 
     def of_pair(self, clearance: ClearanceKeys) -> PairKeys | Self:
         """Return surfaces, contact law, friction and wear of a joint: its pair, or those of the case."""
@@ -187,8 +190,7 @@ class MechanismCase(_WithElements):
         of_pairs = (of_surfaces(self, f"{_PAIRS}.{name}.", self._beside(name)) for name in self.pairs)
         own = of_surfaces(self, "", self._beside(None)) + of_tables(self.followed())
         prefixes = self._surfaces_of_joints()
-        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
-        elastic = (prefixes[name] for name, keys in real.items() if keys.under == CONFORMAL)
+        elastic = (prefixes[name] for name, keys in self.real.items() if keys.under == CONFORMAL)
         bodies = of_loss(self, dict.fromkeys(elastic))
         chosen = of_choice(self, dict.fromkeys(prefixes.values()))
         return sum(of_pairs, Case.remarks(self) + own + of_mechanism(self) + bodies + chosen)
@@ -211,15 +213,14 @@ class MechanismCase(_WithElements):
 
     def _surfaces_of_joints(self) -> dict[str, str]:
         """Return the prefix of the surfaces' keys of each joint with clearance, by its name."""
-        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
-        return {name: "" if keys.pair is None else f"{_PAIRS}.{keys.pair}." for name, keys in real.items()}
+        pairs = {name: keys.pair for name, keys in self.real.items()}
+        return {name: "" if pair is None else f"{_PAIRS}.{pair}." for name, pair in pairs.items()}
 
     def _beside(self, pair: str | None) -> dict[str, list[str]]:
         """Return the friction of joints of a pair, or of none, that differs from that of the pair."""
-        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
         own = [
             f"joints.{name}.clearance.{_FRICTION}"
-            for name, clearance in real.items()
+            for name, clearance in self.real.items()
             if clearance.pair == pair
             and clearance.friction_coefficient != self.of_pair(clearance).friction_coefficient
         ]
@@ -236,9 +237,8 @@ class MechanismCase(_WithElements):
         along = {path: self.loads[path.split(".")[1]].along or "" for path in loads}
         warm = {
             f"joints.{name}.clearance.temperature.over_time.{part}": table
-            for name, joint in self.joints.items()
-            if joint.real is not None
-            for part, table in joint.real.temperature.tables.items()
+            for name, clearance in self.real.items()
+            for part, table in clearance.temperature.tables.items()
         }
         yield from followed(drives, self.span)
         yield from followed(warm, self.span if self.wear.cycles == 0 else time_followed(self))
@@ -250,7 +250,7 @@ class MechanismCase(_WithElements):
 
     def without_effect(self) -> tuple[str, ...]:
         """Return surfaces that no joint has, and clearances of joints that are ideal all the same."""
-        used = {joint.real.pair for joint in self.joints.values() if joint.real is not None}
+        used = {clearance.pair for clearance in self.real.values()}
         tables = ("surfaces", "asperities", "contact")
         ideal = (
             name for name, joint in self.joints.items() if joint.clearance is not None and not joint.real
@@ -268,11 +268,10 @@ class MechanismCase(_WithElements):
 
     def rough_clearances(self) -> dict[str, float]:
         """Return the combined rms roughness σ of the surfaces of joints with a radial clearance [m]."""
-        real = {name: joint.real for name, joint in self.joints.items()}
         return {
             f"joints.{name}.clearance.radial": self.of_pair(clearance).surface_pair.roughness_rms
-            for name, clearance in real.items()
-            if clearance is not None and clearance.radial is not None
+            for name, clearance in self.real.items()
+            if clearance.radial is not None
         }
 
     def doors(self) -> Doors:
@@ -287,8 +286,7 @@ class MechanismCase(_WithElements):
 
     def yielding(self) -> Self | None:
         """Return the case with elastic bodies under all asperities of which it says nothing, if any."""
-        real = {name: joint.real for name, joint in self.joints.items() if joint.real is not None}
-        rigid = [name for name, keys in real.items() if keys.bulk is None and keys.may_yield]
+        rigid = [name for name, keys in self.real.items() if keys.bulk is None and keys.may_yield]
         return self.replace({f"joints.{name}.clearance.bulk": CONFORMAL for name in rigid}) if rigid else None
 
     @property
@@ -373,7 +371,7 @@ class MechanismCase(_WithElements):
     @property
     def temperature_times(self) -> tuple[float, ...]:
         """Times of the rows of all temperatures that follow time [s], increasing."""
-        real = [joint.real for joint in self.joints.values() if joint.real is not None]
+        real = self.real.values()
         return times_of(table for clearance in real for table in clearance.temperature.tables.values())
 
     @property
@@ -541,9 +539,7 @@ class MechanismCase(_WithElements):
             return
         laws = (one.law for _, _, keys in self.elements() for one in keys.equations(self.joints))
         words = "nothing here has friction that could hold: give it to a joint, or to an element"
-        rubs = any(
-            joint.real is not None and joint.real.friction_coefficient > 0.0 for joint in self.joints.values()
-        )
+        rubs = any(clearance.friction_coefficient > 0.0 for clearance in self.real.values())
         rubs = rubs or any(law is not None and law.function is regularised for law in laws)
         demand(rubs, "friction.rest", words)
         for name, keys in getattr(self, JointFriction.TABLE).items():
@@ -575,7 +571,7 @@ class MechanismCase(_WithElements):
 
     def _check_running_in(self) -> None:
         """Check that there is a roughness to run in to."""
-        pairs = {clearance.pair for joint in self.joints.values() if (clearance := joint.real) is not None}
+        pairs = {clearance.pair for clearance in self.real.values()}
         for name in sorted(pairs, key=str) if self.wear.running_in else ():
             pair, prefix = (self, "") if name is None else (self.pairs[name], f"{_PAIRS}.{name}.")
             pair.surfaces.check_running_in(pair.wear.final_roughness, f"{prefix}wear.")
@@ -585,9 +581,8 @@ class MechanismCase(_WithElements):
             return
         words = f"a wear campaign simulates cycles, and a {self.run.analysis} analysis none; choose dynamic"
         demand(self.run.analysis == "dynamic", "run.analysis", words)
-        real = [joint.real for joint in self.joints.values() if joint.real is not None]
         words = 'a wear campaign needs a joint with clearance whose contact is "surface"'
-        demand(any(clearance.contact == "surface" for clearance in real), "wear.cycles", words)
+        demand(any(clearance.contact == "surface" for clearance in self.real.values()), "wear.cycles", words)
         cycles = self.run.cycles or 0.5
         words = "a wear campaign needs whole cycles here: the last of them is the first whose wear counts"
         demand(cycles == int(cycles), "run.cycles", words)

@@ -27,7 +27,7 @@ _TOLERANCE_POWER: Final = -0.1
 
 def workload(case: MechanismCase) -> Workload:
     """Return the counts of a case."""
-    real = [joint.real for joint in case.joints.values() if joint.real is not None]
+    real = [*case.real.values()]
     oiled = {name: joint for name, joint in case.joints.items() if name in case.oiled}
     films = [joint.film for joint in oiled.values() if joint.film is not None]
     once = case.period if case.campaign_cycles else None

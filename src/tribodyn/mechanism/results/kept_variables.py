@@ -241,7 +241,7 @@ def _read_of_joints(case: MechanismCase) -> Iterator[str]:
     """Yield quantities that are computed from joints after a run, whatever its result holds."""
     yield from _ALWAYS
     yield from INPUTS if case.has_drives else ()
-    real = [joint.real for joint in case.joints.values() if joint.real is not None]
+    real = [*case.real.values()]
     yield from _OF_CLEARANCES if real else ()
     yield from _OF_FLASH if any(has_conductors(case.of_pair(keys).surfaces) for keys in real) else ()
     yield from ("film_pressure_max",) if case.oiled else ()
