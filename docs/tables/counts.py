@@ -80,6 +80,7 @@ def change(percent: float) -> str:
 
 #: How a run ends that is stopped before its first position.
 STOPPED: Final = "refused: stopped before anything was computed; nothing was saved"
+HELD: Final = "along a freedom that no joint, drive or spring holds"
 
 
 def statics(found: Found) -> Lines:
@@ -92,7 +93,7 @@ def statics(found: Found) -> Lines:
     yield row("of these with no clearance", str(ended["no clearance"]))
     for title, name in (
         ("complete static analysis", "complete"),
-        ("refused: a freedom that nothing holds", "along a freedom that no joint, drive or spring holds"),
+        ("refused: a freedom that nothing holds", HELD),
         ("refused: a shaft outside its bore", "out of its bore"),
         ("refused: no rest in ideal joints either", "with ideal joints, too, no position at rest was found"),
         ("refused: a search without an end", "did not converge"),
@@ -107,6 +108,31 @@ def statics(found: Found) -> Lines:
     yield row("static over dynamic rms error: largest", f"{ratio['largest']:.1f}")
 
 
+def loops(found: Found) -> Lines:
+    """Give how comparisons of static loops with slow runs ended, and how far they are from each other."""
+    measured = found["static_loops"]
+    ended = measured["ended"]
+    stopped = sum(ended.get(f"static: {words}", 0) for words in ("interrupted", STOPPED))
+    yield from head("", "mechanisms")
+    yield row("drawn", str(measured["machines"]))
+    yield row("of these with no clearance", str(ended["no clearance"]))
+    yield row("statics stopped by the benchmark after 60 s of processor time", str(stopped))
+    for title, name in (
+        ("statics refused: a freedom that nothing holds", f"static: {HELD}"),
+        ("statics refused: a shaft outside its bore", "static: out of its bore"),
+        ("statics refused: a search without an end", "static: did not converge"),
+        ("no slow run within 60 s", "no slow run"),
+        ("bodies begin elsewhere along a freedom that friction holds", "elsewhere along a freedom"),
+        ("slow runs differ among themselves", "slow runs differ"),
+        ("moments of inertia change the loop", "inertia decides"),
+        ("compared", "complete"),
+    ):
+        yield row(title, str(ended.get(name, 0)))
+    yield row("widths within 2 % of their mean", str(measured["within 2 %"]))
+    yield row("difference of widths: median", f"{100 * measured['difference']['median']:.2g} %")
+    yield row("difference of widths: largest", f"{100 * measured['difference']['largest']:.2g} %")
+
+
 def _quantiles(values: dict[str, float] | None, scale: float, unit: str) -> str:
     if values is None:
         return "–"
@@ -119,4 +145,5 @@ TABLES: Final = {
     "random": stored(SOURCE, machines),
     "bulk": stored(SOURCE, bulk),
     "statics": stored(SOURCE, statics),
+    "loops": stored(SOURCE, loops),
 }

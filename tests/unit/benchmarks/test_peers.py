@@ -59,6 +59,7 @@ LASTING = (
     "options",
     "random_machines",
     "ring",
+    "static_loops",
     "static_machines",
     "sweep",
     "vsv",
