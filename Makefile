@@ -35,7 +35,7 @@ help:
 	@echo "make format      apply the style"
 	@echo "make pages       write tables and measured numbers into the pages of the manual"
 	@echo "make docs        build the manual into $(DOCS)"
-	@echo "make bench       speed against other programs (some twenty minutes)"
+	@echo "make bench       speed against other programs (some eighty minutes)"
 	@echo "make lock        pin all dependencies anew, with hashes (needs uv)"
 	@echo "make clean       remove .venv and everything built"
 

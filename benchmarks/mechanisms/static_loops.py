@@ -52,7 +52,7 @@ def compared(seeds: range | list[int]) -> dict[str, Any]:
     means: dict[str, float] = {}
     for seed in seeds:
         words, far = loop(seed)
-        ended[words.split(",")[0]] += 1
+        ended[words.split(", static off")[0]] += 1
         if far.size:
             means[str(seed)] = float(np.mean(far))
         print(seed, words, f"{np.mean(far):.5f}" if far.size else "", flush=True)

@@ -214,7 +214,7 @@ def test_a_snap_is_ten_times_as_far_as_before_and_a_tenth_of_the_widest_clearanc
 
 @pytest.mark.long(minutes=1.7)
 def test_a_note_says_where_a_shaft_snaps_and_inertia_decides_where_it_ends() -> None:
-    assert loop(11)[0].startswith("inertia decides")
+    assert static_loops.loop(11)[0].startswith("inertia decides")
     result = td.simulate(swinging(11).replace(STATIC))
     assert "at 1 positions a shaft snaps to another place" in result.attrs["notes"]
 
