@@ -103,7 +103,7 @@ def runs(seed: int, *, yields: bool = False) -> tuple[str, list[xr.Dataset]]:
 
     Bodies yield under their asperities in all if in one.
     """
-    if not yielding(seed):
+    if not swinging(seed).real:
         return "no clearance", []
     words, static = statically(seed, yields=yields)
     if words != COMPLETE:
@@ -117,26 +117,20 @@ def runs(seed: int, *, yields: bool = False) -> tuple[str, list[xr.Dataset]]:
 
 def statically(seed: int, *, yields: bool, **keys: object) -> tuple[str, xr.Dataset | None]:
     """Return how the static run of a seed ended, some keys changed, and its result."""
-    changes = {**STATIC, **keys, **(yielding(seed) if yields else {})}
-    return limited(swinging(seed).replace(changes), SLOW)
+    case = swinging(seed).replace({**STATIC, **keys})
+    return limited((case.yielding() if yields else None) or case, SLOW)
 
 
 def slowly(seed: int, slow: float = 1.0, inertia: float = 1.0, *, yields: bool = False) -> xr.Dataset | None:
     """Return the complete slow run of a seed, see :func:`swinging`; None without one."""
-    changes = {**AT_REST, **(yielding(seed) if yields else {})}
-    words, result = limited(swinging(seed, slow, inertia).replace(changes), SLOW)
+    case = swinging(seed, slow, inertia).replace(AT_REST)
+    words, result = limited((case.yielding() if yields else None) or case, SLOW)
     return result if words == COMPLETE else None
 
 
 def elastic(result: xr.Dataset) -> bool:
     """Return whether bodies under the asperities yielded: runs begin again so where asperities end."""
     return 'bulk = "conformal"' in result.attrs["case"]
-
-
-def yielding(seed: int) -> dict[str, str]:
-    """Return the keys by which bodies under the asperities of a seed yield."""
-    real = [name for name, joint in swinging(seed).joints.items() if joint.clearance]
-    return {f"joints.{name}.clearance.bulk": "conformal" for name in real}
 
 
 def turned(one: xr.Dataset, other: xr.Dataset) -> FloatArray:
@@ -162,9 +156,8 @@ def swinging(seed: int, slow: float = 1.0, inertia: float = 1.0) -> MechanismCas
     drawing.more["run"] = {"duration": f"{end} s", "output_interval": f"{end / 3000.0} s"}
     drawing.more["solver"]["rtol"] /= slow
     case = drawing.case()
-    rubbing = [name for name, joint in case.joints.items() if joint.clearance]
     speed = f"{0.2 / slow} um/s"
-    return case.replace({f"joints.{name}.clearance.slip_velocity": speed for name in rubbing})
+    return case.replace({f"joints.{name}.clearance.slip_velocity": speed for name in case.real})
 
 
 def width(result: xr.Dataset) -> FloatArray:

@@ -68,11 +68,9 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
     columns = {f"{one.label} {one.unit}".strip(): one for one in columns_of(key_results, summary)}
     cells = {
         (h.part, heading): grey(
-            f"{interval(summary, name, by) or _number(summary[name], h.digits, by):>{_COLUMN}}",
-            _mark(name, summary),
+            f"{_of_part(name, h, column.factor, summary):>{_COLUMN}}", _mark(name, summary)
         )
         for heading, column in columns.items()
-        for by in (column.factor,)
         for name, h in column.members.items()
     }
     parts = dict.fromkeys(h.part for h in key_results.values())
@@ -86,6 +84,11 @@ def _parts(group: str, key_results: Mapping[str, KeyResult], summary: Mapping[st
             row = [cells.get((part, name), _NONE) for name in shown]
             if any(cell != _NONE for cell in row):
                 yield f"  {part:<{width}}  {'  '.join(row)}"
+
+
+def _of_part(name: str, one: KeyResult, factor: float, summary: Mapping[str, object]) -> str:
+    """Return a number of a part; of wear its interval."""
+    return interval(summary, name, factor) or _number(summary[name], one.digits, factor)
 
 
 def _room(taken: int) -> int:

@@ -41,11 +41,7 @@ def bands(dataset: xr.Dataset, summary: Mapping[str, Any], folder: Path) -> dict
         return None
     case = parse_case(str(dataset.attrs["case"]), "case")
     keys = [key for key in json.loads(sweep.attrs["varied"]) if key in sweep.dims]
-    # The run's own value, or the one nearest to it.
-    here = {
-        key: int(np.argmin(abs(sweep[key].values.astype(float) - np.array(case.at(key), float))))
-        for key in keys
-    }
+    here = {key: _nearest(sweep[key].values, case.at(key)) for key in keys}
     shown = known([name for name in summary if name in sweep], str(summary["kind"]))
     rows = [
         _assumed_row(key_result, summary[name], sweep[name], here)
@@ -78,6 +74,11 @@ def _sweep_of(dataset: xr.Dataset, file: Path) -> xr.Dataset | None:
         return None
     around = bool(dataset.attrs.get("case")) and sweep.attrs.get("case") == dataset.attrs["case"]
     return sweep if around and "varied" in sweep.attrs else None
+
+
+def _nearest(values: Any, value: Any) -> int:
+    """Return the place of the run's own value among those of the sweep, or of the one nearest to it."""
+    return int(np.argmin(np.abs(np.asarray(values, dtype=np.float64) - float(value))))
 
 
 def _alone(numbers: xr.DataArray, key: str, here: Mapping[str, int]) -> FloatArray:

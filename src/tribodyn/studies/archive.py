@@ -202,10 +202,7 @@ def merge(plan: SweepPlan, summaries: Mapping[str, Summary]) -> xr.Dataset:
         return variable(dims, np.array(values, dtype=dtype).reshape(shape), about)
 
     kind = plan.case.kind()
-    found = {name: [row.get(name, "") for row in rows] for name in ("failure", "warnings", "doubtful")}
-    texts = {
-        name: ["; ".join(x) if isinstance(x, list) else str(x) for x in of] for name, of in found.items()
-    }
+    texts = {name: [_text(row.get(name, "")) for row in rows] for name in ("failure", "warnings", "doubtful")}
     texts["points"] = [point.name for point in plan.points]
     numbers = {name: laid_out(*_column(name, rows, kind)) for name in _numbers(rows, kind)}
     words = {
@@ -230,6 +227,10 @@ def _column(name: str, rows: Sequence[Summary], kind: str) -> tuple[list[float],
         return values, float, {"long_name": name}
     about = {"units": one.unit or "1", "long_name": one.label, "group": one.group, "comment": one.meaning}
     return values, float, about | {"digits": 0 if one.count else one.digits}
+
+
+def _text(about_number: object) -> str:
+    return "; ".join(about_number) if isinstance(about_number, list) else str(about_number)
 
 
 def _coordinates(plan: SweepPlan) -> dict[str, xr.Variable]:
